@@ -250,4 +250,50 @@ TEST_CASE("check: what a verdict rests on is told by its kind") {
     CHECK(assumed(wall, "closed wall\nx'' = 0") == Texts{{"closed", "contact wall is closed"}});
 }
 
+TEST_CASE(
+    "check: an initial state that a claim's assumption excludes decides nothing, nor does another claim's root") {
+    const auto verdicts = [](const std::string& scene, const std::string& claims) {
+        std::vector<std::string> result;
+        const auto told = run({"check", scene, temporary("apart.claims", claims), "--json"});
+        INFO(told.err);
+        const Json json = Json::parse(told.out);
+        for (const Json& claim : json["claims"]) result.push_back(claim["verdict"]);
+        return result;
+    };
+    using Words = std::vector<std::string>;
+    const std::string circle = temporary("circle.toml", R"toml(
+[parameters]
+l = 1
+[coordinates]
+x = { initial = 0, rate = 1 }
+y = -1
+[energy]
+kinetic = "(x'^2 + y'^2)/2"
+[[constraint]]
+name = "c"
+holonomic = "x^2 + y^2 - l^2"
+)toml");
+    CHECK(verdicts(circle,
+                   "y = -sqrt(l^2 - x^2)\nwhere y > 0\ny = -sqrt(l^2 - x^2)\ny = sqrt(l^2 - x^2)\n"
+                   "x*(y + sqrt(l^2 - x^2)) = 0\nwhere\nwhere x + y > 5\ny = -sqrt(l^2 - x^2)\nwhere\n"
+                   "where y < 0\ny = -sqrt(l^2 - x^2)\ny = sqrt(l^2 - x^2)\n") ==
+          Words{"proved", "refuted", "proved", "refuted", "refuted", "proved", "refuted"});
+    const std::string spring = temporary("left.toml", R"toml(
+[parameters]
+k = 1
+[coordinates]
+x = -2
+[energy]
+kinetic = "x'^2/2"
+potential = "k*x^2/2"
+)toml");
+    for (const char* const root : {"", "sqrt(x^2) = -x\n"}) {
+        Words found = verdicts(spring, std::string(root) +
+                                           "where k > 0\nabs(x) = -x\nx'' = k*abs(x)\nwhere\nwhere x > 0\n"
+                                           "x'' = -k*x\nx'' = -k*sqrt(x^2)\nx'' = k*sqrt(x^2)\n");
+        if (*root != 0) found.erase(found.begin());
+        CHECK(found == Words{"refuted", "refuted", "proved", "proved", "refuted"});
+    }
+}
+
 }  // namespace check_sheets

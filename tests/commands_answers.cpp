@@ -223,13 +223,16 @@ TEST_CASE("stability and equilibrium: drag that is no linear damping decides by 
     CHECK(asked_of("c = 0.2", "x = \"-c*abs(x')*x' - c*y'\"\ny = \"c*x' - y'*max(0, abs(y') - 1)\"") ==
           Told("yes", "stable"));
     CHECK(asked_of("c = 0.2", "x = \"-c*abs(x')*x' - c*y\"\ny = \"c*x\"") == Told("undecided", "undecided"));
-    const std::string oscillator = temporary("oscillator.toml",
-                                             "[parameters]\nc = 1\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\n"
-                                             "potential = \"x^2/2\"\n[forces]\nx = \"-c*abs(x')*x'\"\n");
+    const std::string oscillator =
+        temporary("oscillator.toml",
+                  "[parameters]\nc = 1\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\n"
+                  "potential = \"x^2/2\"\n[forces]\nx = \"-c*abs(x')*x'\"\n");
     for (const auto& [at, word, verdict] :
-         {std::array{"c=2", "yes", "stable"}, std::array{"c=-1/4", "no", "unstable"}, std::array{"c=0", "yes", "stable"}}) {
+         {std::array{"c=2", "yes", "stable"}, std::array{"c=-1/4", "no", "unstable"},
+          std::array{"c=0", "yes", "stable"}}) {
         CAPTURE(at);
-        CHECK(Json::parse(run({"equilibrium", oscillator, "--json", "--at", at}).out)["equilibria"][0]["stable"] == word);
+        CHECK(Json::parse(run({"equilibrium", oscillator, "--json", "--at", at}).out)["equilibria"][0]["stable"] ==
+              word);
         CHECK(Json::parse(run({"stability", oscillator, "--json", "--at", at}).out)["verdict"] == verdict);
     }
     const auto pendulum = [](const std::string& sign) {

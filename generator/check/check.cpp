@@ -19,10 +19,15 @@ namespace alembert {
 
 namespace {
 
+/// The sheets as they are before any claim is read, which adds to what is positive on them.
+std::shared_ptr<RootSheets> copy_of(const std::shared_ptr<RootSheets>& sheets) {
+    return sheets ? std::make_shared<RootSheets>(*sheets) : nullptr;
+}
+
 /// The claims are judged together. If that meets an error of the arithmetic, each is judged alone, and the one
 /// that meets it is undecided.
-Checked check_together(OneMode& mode, const Scene& scene, const std::shared_ptr<RootSheets>& sheets) try {
-    return mode.check(scene, sheets);
+Checked check_together(OneMode& mode, const Scene& scene) try {
+    return mode.check(scene, copy_of(mode.sheets()));
 } catch (const std::exception&) {
     const std::string reason = words_of_arithmetic_error();
     Checked result;
@@ -31,7 +36,7 @@ Checked check_together(OneMode& mode, const Scene& scene, const std::shared_ptr<
         return result;
     }
     for (std::size_t k = 0; k < scene.claims.size(); ++k)
-        result.claims.push_back(std::move(check_together(mode, with_some_claims(scene, {k}), sheets).claims[0]));
+        result.claims.push_back(std::move(check_together(mode, with_some_claims(scene, {k})).claims[0]));
     return result;
 }
 
@@ -43,11 +48,6 @@ Scene with_claims_of(Scene scene, const Scene& claims) {
     scene.own_file = claims.own_file;
     scene.own_text = claims.own_text;
     return scene;
-}
-
-/// The sheets as they are before any claim is read, which adds to what is positive on them.
-std::shared_ptr<RootSheets> copy_of(const std::shared_ptr<RootSheets>& sheets) {
-    return sheets ? std::make_shared<RootSheets>(*sheets) : nullptr;
 }
 
 /// The sets of contacts that may be closed together, the smaller ones first.
@@ -79,14 +79,13 @@ public:
     }
 
     Checked check(const Scene& scene) {
-        const std::shared_ptr<RootSheets> sheets = copy_of(own().sheets());
         std::map<Mode, std::vector<std::size_t>> modes;
         for (std::size_t k = 0; k < scene.claims.size(); ++k) modes[mode_of(scene.claims[k], scene)].push_back(k);
         Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
         for (const auto& [mode, claims] : modes) {
             const Scene part = with_some_claims(scene, claims);
             const bool is_own = mode.held.is_of_scene();
-            Checked checked = is_own ? check_together(own(), part, sheets) : check_in(mode.held, part);
+            Checked checked = is_own ? check_together(own(), part) : check_in(mode.held, part);
             if (is_own && (mode.where.empty() || modes.size() == 1)) {
                 result.complete = checked.complete;
                 result.missing = checked.missing;
@@ -143,7 +142,7 @@ private:
         for (Claim& claim : part.claims)
             if (claim.at == Claim::At::sticking || claim.at == Claim::At::closed) claim.at = Claim::At::motion;
         OneMode& of = mode(held);
-        return check_together(of, with_claims_of(of.scene(), part), copy_of(of.sheets()));
+        return check_together(of, with_claims_of(of.scene(), part));
     }
 
     /// A claim that fails while the contacts are open may mean the motion while they are closed.

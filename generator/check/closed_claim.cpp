@@ -105,10 +105,18 @@ bool has_roots_of_rates(const Comparison& now, std::size_t k) {
     });
 }
 
+/// Whether the initial state has what the claims assume: only then does its branch decide.
+bool starts_where_assumed(const Comparison& now) {
+    return std::all_of(now.assumed.begin(), now.assumed.end(), [&](const GiNaC::ex& positive) {
+        return is_positive_at_start(positive, now.claims, now.e);
+    });
+}
+
 /// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
 /// branch.
 std::optional<std::vector<std::string>> branch_of(Comparison& now, std::size_t k, ExactStates& states) {
-    if (now.at != Claim::At::motion || has_roots_of_rates(now, k)) return std::nullopt;
+    if (now.at != Claim::At::motion || has_roots_of_rates(now, k) || !starts_where_assumed(now))
+        return std::nullopt;
     if (auto sheet = sheet_on_own_branch(now, k, states)) return sheet;
     const std::optional<RootForm> form = root_form(now.forms[k].residual, now.m);
     if (!form) return std::nullopt;
@@ -117,6 +125,8 @@ std::optional<std::vector<std::string>> branch_of(Comparison& now, std::size_t k
     double failure = 0;
     if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure) != std::optional(true)) return std::nullopt;
     if (!is_positive_at_start(form->root, now.claims, now.e)) return std::nullopt;
+    now.verdicts[k].failure = failure;
+    now.verdicts[k].normal_form = p.is_zero(norm);
     return std::vector<std::string>{inequality(form->root, now.m)};
 }
 
@@ -183,7 +193,10 @@ bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const
     double failure = 0;
     if (own.get(0) != nullptr && is_whole_turns(now, k, own.motions, own)) {
         c.verdict = Verdict::proved;
-        if (!is_whole_turns(now, k, own.motions, states)) {
+        failure = c.failure;
+        const bool is_so_everywhere = is_whole_turns(now, k, own.motions, states);
+        c.failure = failure;
+        if (!is_so_everywhere) {
             Program turns;
             const int turned = now.claims.lower(turns, {1 - cos(now.forms[k].residual)})[0];
             tell_other_branch(now, k, states.motions, turns, turned, Verdict::refuted);

@@ -33,8 +33,8 @@ std::string in_letters(const ex& e, const Symbols& symbols) {
     return text(readable(*f));
 }
 
-/// `e` or −e, whichever begins without a minus or, of two sums, earlier in the alphabet: GiNaC's order, and so the sign
-/// of a factor, is another one at every run.
+/// `e` or −e, whichever begins without a minus or, of two sums, earlier in the alphabet: GiNaC's order, and so the
+/// sign of a factor, is another one at every run.
 ex written_side(const ex& e, const Symbols& symbols) {
     const std::string one = in_letters(e, symbols), other = in_letters(-e, symbols);
     const auto begins = [](const std::string& text) { return std::pair(!text.empty() && text[0] == '-', text); };
@@ -52,7 +52,8 @@ std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols&
         for (const ex& factor : factors) {  // factor by factor
             if (GiNaC::is_a<GiNaC::numeric>(factor)) {
                 condition *= GiNaC::abs(factor);
-                if (!factor.is_equal(-1)) shown = in_letters(GiNaC::abs(factor), symbols) + (shown.empty() ? "" : "*") + shown;
+                if (!factor.is_equal(-1))
+                    shown = in_letters(GiNaC::abs(factor), symbols) + (shown.empty() ? "" : "*") + shown;
                 continue;
             }
             const bool is_sum = GiNaC::is_a<GiNaC::add>(factor.expand());
@@ -62,7 +63,8 @@ std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols&
             shown += (shown.empty() ? "" : "*") + (is_sum && factors.nops() > 1 ? "(" + part + ")" : part);
             condition *= side;
         }
-        if (const std::string whole = in_letters(condition, symbols); !whole.empty() && whole.size() <= shown.size())
+        if (const std::string whole = in_letters(condition, symbols);
+            !whole.empty() && whole.size() <= shown.size())
             shown = whole;
         if (shown.empty() || shown.size() > longest_condition) return {};
         const bool is_opposite = (condition + positive).expand().is_zero();

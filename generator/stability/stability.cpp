@@ -319,7 +319,8 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
 /// By the energy, where the equations are not analytic; undecided if it does not tell.
 Decision decide_by_energy(const LinearizedScene& near) try {
     const SteadyProblem problem(near.mechanism, near.equations, near.start);
-    const StabilityHint hint = judge(problem, energy_rate(near.mechanism, problem, near.start.parameters), problem.start());
+    const StabilityHint hint =
+        judge(problem, energy_rate(near.mechanism, problem, near.start.parameters), problem.start());
     if (!hint.by_energy) return {};
     return hint.stable == Stable::yes
                ? Decision{StabilityVerdict::stable, StabilityTheorem::lagrange_dirichlet, hint.because}

@@ -36,8 +36,9 @@ std::optional<RealState> real_state_towards(const Motions& motions, const Progra
                                             const std::vector<int>& roots, const Wanted& wanted, unsigned seed);
 
 /// The same on the scene's own branch, for motions that know it: near a place of it, and at seed 0 with the
-/// scene's parameters; from first_far_seed on also far from where the scene starts. Positions that follow from others are floats. At random what is free is one of 2³⁰
-/// fractions, so that an equation which holds there by chance is unlikely.
+/// scene's parameters; from first_far_seed on also far from where the scene starts. Positions that follow from
+/// others are floats. At random what is free is one of 2³⁰ fractions, so that an equation which holds there by
+/// chance is unlikely.
 enum class Draws { simple, at_random };
 std::optional<RealState> real_state_on_own_branch(const Motions& motions, const Program& claims,
                                                   const std::vector<int>& roots, unsigned seed,

@@ -77,9 +77,11 @@ public:
     }
 
     /// Places along a walk that keeps its direction, as long as `may_go_on`.
-    std::vector<Start> along(const Start& start, bool forwards, const std::function<bool(const Start&)>& may_go_on) {
+    std::vector<Start> along(const Start& start, bool forwards,
+                             const std::function<bool(const Start&)>& may_go_on) {
         constexpr int most_steps = 60, between = 6;
-        const double length = step_length * (1 + Eigen::Map<const Eigen::VectorXd>(start.q.data(), n_).lpNorm<Eigen::Infinity>());
+        const double length =
+            step_length * (1 + Eigen::Map<const Eigen::VectorXd>(start.q.data(), n_).lpNorm<Eigen::Infinity>());
         std::vector<Start> result;
         Start here = start;
         Eigen::VectorXd change = along_rates(here, forwards);
@@ -210,12 +212,13 @@ std::optional<OwnBranch> own_branch(const Mechanism& mechanism) try {
     constexpr int most_coordinates = 8;
     constexpr double largest_value = 10;  // of an angle far from zero the steps would be whole turns
     const auto is_alone = [&](const Start& at) { return independence(at) >= near_a_meeting * largest; };
-    const bool is_near_zero = std::all_of(start.q.begin(), start.q.end(),
-                                          [](double q) { return std::abs(q) <= largest_value; });
+    const bool is_near_zero =
+        std::all_of(start.q.begin(), start.q.end(), [](double q) { return std::abs(q) <= largest_value; });
     if (mechanism.size() <= most_coordinates && is_near_zero && is_alone(start)) {
         Walk walk(mechanism, program, true, 1);
         for (const bool forwards : {true, false})
-            for (const Start& place : walk.along(start, forwards, is_alone)) branch.farther.push_back(place.state());
+            for (const Start& place : walk.along(start, forwards, is_alone))
+                branch.farther.push_back(place.state());
     }
     return branch;
 } catch (const std::runtime_error&) {

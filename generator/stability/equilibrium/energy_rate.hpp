@@ -4,7 +4,8 @@
 /// How the energy of a mechanism changes in all of its motions, where that can be proved: forces that depend on
 /// the coordinates and have a potential belong to it, and the power of the others has one sign.
 ///
-///     energy_rate(mechanism, problem, start.parameters) == EnergyRate::falls        // quadratic drag, c > 0: P = −c |v|³
+///     energy_rate(mechanism, problem, start.parameters) == EnergyRate::falls        // quadratic drag, c > 0: P =
+///     −c |v|³
 ///
 /// About a strict minimum of the potential the energy is Lyapunov's function: the motion is stable if it never
 /// grows (Lagrange and Dirichlet), and unstable if it grows in every motion, which then leaves all levels near the
@@ -21,8 +22,8 @@ enum class EnergyRate {
     grows      ///< of one coordinate: it grows whenever that moves
 };
 
-/// At these values of the independent parameters, whose signs decide. Constraints that the rates alone obey, inputs
-/// and impulses leave it open.
+/// At these values of the independent parameters, whose signs decide. Constraints that the rates alone obey,
+/// inputs and impulses leave it open.
 EnergyRate energy_rate(const Mechanism& mechanism, const SteadyProblem& problem,
                        const std::vector<double>& parameters);
 
