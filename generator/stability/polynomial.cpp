@@ -33,42 +33,66 @@ std::string in_letters(const ex& e, const Symbols& symbols) {
     return text(readable(*f));
 }
 
-/// `e` or −e, whichever begins without a minus or, of two sums, earlier in the alphabet: GiNaC's order, and so the
-/// sign of a factor, is another one at every run.
-ex written_side(const ex& e, const Symbols& symbols) {
-    const std::string one = in_letters(e, symbols), other = in_letters(-e, symbols);
-    const auto begins = [](const std::string& text) { return std::pair(!text.empty() && text[0] == '-', text); };
-    return begins(other) < begins(one) ? ex(-e) : e;
+bool begins_with_minus(const std::string& text) {
+    return !text.empty() && text[0] == '-';
+}
+
+/// A condition as a person writes it. GiNaC's order, and so the signs of factors, is another one at every run: of
+/// two ways to write a sum that which begins without a minus and, of these, that which is earlier in the alphabet
+/// is taken, but for one sum which is turned so that the whole is positive, if it can be.
+std::string text_of_condition(const ex& positive, const Symbols& symbols) {
+    struct Side {
+        ex value;
+        std::string text, opposite;  ///< `opposite` is empty where it is no way to write it
+    };
+    std::vector<Side> sides;
+    std::string number;
+    ex whole = 1;
+    const ex factors = GiNaC::is_a<GiNaC::mul>(positive) ? positive : ex(GiNaC::lst{positive});
+    for (const ex& factor : factors) {
+        if (GiNaC::is_a<GiNaC::numeric>(factor)) {
+            whole *= GiNaC::abs(factor);
+            if (!factor.is_equal(-1)) number = in_letters(GiNaC::abs(factor), symbols) + "*";
+            continue;
+        }
+        Side side{factor, in_letters(factor, symbols), {}};
+        if (side.text.empty()) return "";
+        if (GiNaC::is_a<GiNaC::add>(factor.expand())) {
+            side.opposite = in_letters(-factor, symbols);
+            const auto order = [](const std::string& text) { return std::pair(begins_with_minus(text), text); };
+            if (order(side.opposite) < order(side.text)) {
+                std::swap(side.text, side.opposite);
+                side.value = -factor;
+            }
+        }
+        whole *= side.value;
+        sides.push_back(std::move(side));
+    }
+    bool is_opposite = (whole + positive).expand().is_zero();
+    for (Side& side : sides)
+        if (is_opposite && !side.opposite.empty() && !begins_with_minus(side.opposite)) {
+            std::swap(side.text, side.opposite);
+            whole = -whole;
+            is_opposite = false;
+        }
+    std::string shown = number;
+    for (const Side& side : sides) {
+        const bool is_part = !side.opposite.empty() && factors.nops() > 1;
+        shown += (&side == &sides.front() ? "" : "*") + (is_part ? "(" + side.text + ")" : side.text);
+    }
+    if (const std::string one = in_letters(whole, symbols); !one.empty() && one.size() <= shown.size())
+        shown = one;
+    return shown + (is_opposite ? " < 0" : " > 0");
 }
 
 /// One text for each condition; none at all if one is too long to be read.
 std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols& symbols) {
     std::vector<std::string> result;
-    for (const ex& positive : conditions) {
-        if (GiNaC::is_a<GiNaC::numeric>(positive)) return {};  // the condition does not depend on parameters
-        const ex factors = GiNaC::is_a<GiNaC::mul>(positive) ? positive : ex(GiNaC::lst{positive});
-        std::string shown;
-        ex condition = 1;
-        for (const ex& factor : factors) {  // factor by factor
-            if (GiNaC::is_a<GiNaC::numeric>(factor)) {
-                condition *= GiNaC::abs(factor);
-                if (!factor.is_equal(-1))
-                    shown = in_letters(GiNaC::abs(factor), symbols) + (shown.empty() ? "" : "*") + shown;
-                continue;
-            }
-            const bool is_sum = GiNaC::is_a<GiNaC::add>(factor.expand());
-            const ex side = is_sum ? written_side(factor, symbols) : factor;
-            const std::string part = in_letters(side, symbols);
-            if (part.empty()) return {};
-            shown += (shown.empty() ? "" : "*") + (is_sum && factors.nops() > 1 ? "(" + part + ")" : part);
-            condition *= side;
-        }
-        if (const std::string whole = in_letters(condition, symbols);
-            !whole.empty() && whole.size() <= shown.size())
-            shown = whole;
+    for (const ex& condition : conditions) {
+        if (GiNaC::is_a<GiNaC::numeric>(condition)) return {};  // the condition does not depend on parameters
+        const std::string shown = text_of_condition(condition, symbols);
         if (shown.empty() || shown.size() > longest_condition) return {};
-        const bool is_opposite = (condition + positive).expand().is_zero();
-        result.push_back(shown + (is_opposite ? " < 0" : " > 0"));
+        result.push_back(shown);
     }
     return result;
 }

@@ -36,6 +36,10 @@ class _Likely(TypedDict):
     kind: str
     term: str
 
+class _Assumption(TypedDict):
+    kind: Literal["side", "branch", "parameter", "pose", "closed", "stated"]
+    text: str
+
 class _Branch(TypedDict):
     where: str | None
     verdict: _Verdict
@@ -52,6 +56,7 @@ class _ClaimAlways(TypedDict):
     residual: float | None
     difference: str
     likely: _Likely | None
+    assumed: list[_Assumption]
 
 class _Claim(_ClaimAlways, total=False):
     source: str
@@ -59,7 +64,8 @@ class _Claim(_ClaimAlways, total=False):
     residual_text: str
     nearest: str
     reason: str
-    where: str | None
+    where: list[str]
+    holds_where: list[str]
     other_branches: list[_Branch]
 
 class Checked(Result):
