@@ -180,7 +180,7 @@ void assume_branch(CheckedClaim& c, const std::vector<std::string>& where) {
 }
 
 void prove_by_digits(CheckedClaim& c) {
-    constexpr double failure = -60;  // three states, and one of 2²⁰ numbers for each degree of the claim
+    constexpr double failure = -60;  // three states of 2³⁰ numbers each, for a claim of a degree below 2¹⁰
     c.verdict = Verdict::proved;
     c.failure = failure;
 }

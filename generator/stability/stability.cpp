@@ -315,8 +315,7 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
     result.lyapunov = answer;
 }
 
-/// Where the equations have no Taylor series at the state.
-/// By the energy, where the equations are not analytic; undecided if it does not tell.
+/// By the energy, in numbers; undecided if it does not tell.
 Decision decide_by_energy(const LinearizedScene& near) try {
     const SteadyProblem problem(near.mechanism, near.equations, near.start);
     const StabilityHint hint =
@@ -331,6 +330,7 @@ Decision decide_by_energy(const LinearizedScene& near) try {
     return {};
 }
 
+/// Where the equations have no Taylor series at the state.
 void judge_in_numbers(Stability& result, const std::string& lyapunov) {
     result.eigenvalues = eigenvalues_of(blurred(result.A), false);
     take(result, decide_first(result.eigenvalues));
@@ -406,7 +406,10 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
         decision = critical_case(*local, power, result.eigenvalues);
     else
         name_forces(decision, *local, power);
-    if (decision.verdict == StabilityVerdict::undecided) decision = decide_by_energy(near);
+    if (decision.verdict == StabilityVerdict::undecided) {
+        decision = decide_by_energy(near);
+        result.certain = decision.verdict == StabilityVerdict::undecided;
+    }
     if (decision.verdict == StabilityVerdict::undecided) decision = undecided(result.eigenvalues);
     if (decision.verdict == StabilityVerdict::asymptotically_stable && !local->cyclic_momenta.empty()) {
         decision.verdict = StabilityVerdict::stable;
