@@ -202,14 +202,6 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
 bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism& m,
                                  const std::vector<std::pair<GiNaC::symbol, int>>& given) {
     constexpr std::size_t most_choices = 32;
-    const auto holds = [&](int node, const SolvedUnknown& unknown) {
-        const std::vector<int> needed = program_.needed(std::vector{node});
-        return std::any_of(needed.begin(), needed.end(), [&](int id) {
-            const Variable& v = program_[id].variable;
-            return program_[id].op == Op::variable && v.kind == unknown.variable.kind &&
-                   v.index == unknown.variable.index;
-        });
-    };
     bool loses = false;
     std::vector<std::vector<int>> choices{{}};  // of one factor for each condition
     const auto add = [&](const SolvedUnknown& unknown) {
@@ -223,8 +215,8 @@ bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism&
             }
         }
         if (factors.size() < 2) factors = {unknown.node};
-        loses = loses ||
-                !std::all_of(factors.begin(), factors.end(), [&](int factor) { return holds(factor, unknown); });
+        loses = loses || !std::all_of(factors.begin(), factors.end(),
+                                      [&](int factor) { return holds(program_, factor, unknown); });
         std::vector<std::vector<int>> longer;
         for (const std::vector<int>& before : choices)
             for (const int factor : factors) {

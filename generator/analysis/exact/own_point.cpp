@@ -10,6 +10,7 @@
 #include "analysis/exact/angle_variables.hpp"
 #include "analysis/exact/counted_angle.hpp"
 #include "analysis/exact/rational_polynomial.hpp"
+#include "analysis/exact/solving_order.hpp"
 
 namespace alembert {
 
@@ -103,18 +104,10 @@ private:
             state_.value[key_of(unknown)] = x;
     }
 
-    bool holds(int node, const SolvedUnknown& unknown) const {
-        const std::vector<int> below = program_.needed(std::vector<int>{node});
-        return std::any_of(below.begin(), below.end(), [&](int id) {
-            const Node& n = program_[id];
-            return n.op == Op::variable && n.variable.kind == unknown.variable.kind &&
-                   n.variable.index == unknown.variable.index;
-        });
-    }
-
     bool holds_derived(const SolvingStep& step) const {
         return std::any_of(derived_.begin(), derived_.end(), [&](const SolvedUnknown& unknown) {
-            return holds(step.node, unknown) || (step.second && holds(step.second->node, unknown));
+            return holds(program_, step.node, unknown) ||
+                   (step.second && holds(program_, step.second->node, unknown));
         });
     }
 
@@ -128,7 +121,7 @@ private:
     std::optional<ex> polynomial(const SolvedUnknown& condition,
                                  std::vector<std::pair<SolvedUnknown, symbol>> unknowns) {
         for (const Irrational& root : irrational_)
-            if (holds(condition.node, root.of)) unknowns.emplace_back(root.of, root.symbol);
+            if (holds(program_, condition.node, root.of)) unknowns.emplace_back(root.of, root.symbol);
         std::vector<PolynomialVariable> variables;
         for (const auto& [unknown, x] : unknowns) variables.push_back({x, unknown.turned});
         const RealState before = state_;

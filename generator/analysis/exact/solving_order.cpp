@@ -249,4 +249,13 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions, 
     return result;
 }
 
+bool holds(const Program& program, int node, const SolvedUnknown& unknown) {
+    const std::vector<int> needed = program.needed(std::vector{node});
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        const Variable& v = program[id].variable;
+        return program[id].op == Op::variable && v.kind == unknown.variable.kind &&
+               v.index == unknown.variable.index;
+    });
+}
+
 }  // namespace alembert

@@ -35,4 +35,7 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions,
 /// Does the condition hold parameters and nothing else?
 bool holds_parameters_alone(const Program& program, int condition);
 
+/// Whether the unknown's variable occurs in the node.
+bool holds(const Program& program, int node, const SolvedUnknown& unknown);
+
 }  // namespace alembert
