@@ -330,6 +330,13 @@ Decision decide_by_energy(const LinearizedScene& near) try {
     return {};
 }
 
+/// What nothing exact decides.
+Decision decide_last(Stability& result) {
+    Decision decision = decide_by_energy(*result.near);
+    result.certain = decision.verdict == StabilityVerdict::undecided;
+    return result.certain ? undecided(result.eigenvalues) : decision;
+}
+
 /// Where the equations have no Taylor series at the state.
 void judge_in_numbers(Stability& result, const std::string& lyapunov) {
     result.eigenvalues = eigenvalues_of(blurred(result.A), false);
@@ -406,11 +413,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
         decision = critical_case(*local, power, result.eigenvalues);
     else
         name_forces(decision, *local, power);
-    if (decision.verdict == StabilityVerdict::undecided) {
-        decision = decide_by_energy(near);
-        result.certain = decision.verdict == StabilityVerdict::undecided;
-    }
-    if (decision.verdict == StabilityVerdict::undecided) decision = undecided(result.eigenvalues);
+    if (decision.verdict == StabilityVerdict::undecided) decision = decide_last(result);
     if (decision.verdict == StabilityVerdict::asymptotically_stable && !local->cyclic_momenta.empty()) {
         decision.verdict = StabilityVerdict::stable;
         decision.reason +=
