@@ -49,6 +49,7 @@ potential = "-mu*m/r*(1 - J2*(R/r)^2*(3*sin(beta)^2 - 1)/2)"
 
 /// scene | claims | the slip in the last of them
 const char* const slips = R"---(pendulum | l*theta'' - g*sin(theta) = 0 | the sign of g*sin(theta)
+free_body | I1*w1' = 0 | a missing term -(I2-I3)*w2*w3
 pendulum | m*l^2*theta'' + m*g*l*cos(theta) = 0 | cos for sin in m*g*l*cos(theta)
 pendulum | m*l^2*theta'' + m*g*sin(theta) = 0 | a missing factor l on m*g*sin(theta)
 pendulum | m*l*theta'' + m*g*l*sin(theta) = 0 | a wrong power in m*l*theta'': l for l^2

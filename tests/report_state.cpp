@@ -29,4 +29,13 @@ TEST_CASE("report: numbers of a state have four digits, and angles are in degree
     CHECK(as_written("x", "1" + std::string(30, '0') + "1/7") == "x ≈ 1.429e+30");
 }
 
+TEST_CASE("report: the state of a claim in speeds is told in speeds, and each other one whole") {
+    const std::vector<std::pair<std::string, std::string>> state{{"A", "1"},    {"psi", "2"},  {"psi'", "3"}, {"psi''", "4"},
+                                                                 {"wx", "5"},   {"wx'", "6"}};
+    CHECK(alembert::text_of_state(state, "A*wx' = 0") == "A = 1, psi = 2, wx = 5, wx' = 6");
+    CHECK(alembert::text_of_state(state, "A*wx' = psi'") ==
+          "A = 1, psi = 2, psi' = 3, psi'' = 4, wx = 5, wx' = 6");
+    CHECK(alembert::text_of_state(state, "psi = wx1") == "A = 1, psi = 2, psi' = 3, psi'' = 4, wx = 5, wx' = 6");
+}
+
 }  // namespace report_state

@@ -12,7 +12,6 @@
 #include "check/quantities.hpp"
 #include "check/root_form.hpp"
 #include "check/speaks_of_scene.hpp"
-#include "check/start_state.hpp"
 #include "check/vanishing.hpp"
 #include "model/energy.hpp"
 
@@ -60,7 +59,7 @@ bool is_positive_on_own_branch(Comparison& now, const Motions& motions, const Gi
     Program p;
     const int root = now.claims.lower(p, {value})[0];
     const std::optional<int> sign = sign_on_own_branch(told(now), motions, p, root);
-    return sign ? *sign > 0 : is_positive_at_start(value, now.claims, now.e);
+    return sign ? *sign > 0 : now.own_motion.is_positive_at_start(value);
 }
 
 /// What numbers say, where the motions know the scene's own branch.
@@ -106,9 +105,9 @@ bool has_roots_of_rates(const Comparison& now, std::size_t k) {
 }
 
 /// Whether the initial state has what the claims assume: only then does its branch decide.
-bool starts_where_assumed(const Comparison& now) {
+bool starts_where_assumed(Comparison& now) {
     return std::all_of(now.assumed.begin(), now.assumed.end(), [&](const GiNaC::ex& positive) {
-        return is_positive_at_start(positive, now.claims, now.e);
+        return now.own_motion.is_positive_at_start(positive);
     });
 }
 
@@ -124,7 +123,7 @@ std::optional<std::vector<std::string>> branch_of(Comparison& now, std::size_t k
     const int norm = now.claims.lower(p, {form->norm})[0];
     double failure = 0;
     if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure) != std::optional(true)) return std::nullopt;
-    if (!is_positive_at_start(form->root, now.claims, now.e)) return std::nullopt;
+    if (!now.own_motion.is_positive_at_start(form->root)) return std::nullopt;
     now.verdicts[k].failure = failure;
     now.verdicts[k].normal_form = p.is_zero(norm);
     return std::vector<std::string>{inequality(form->root, now.m)};
@@ -185,6 +184,15 @@ void prove_by_digits(CheckedClaim& c) {
     c.failure = failure;
 }
 
+/// Whether it holds values of asin or acos, whose sines and cosines are roots: y = l*sin(acos(x/l)) holds on one half
+/// of a circle, in exact arithmetic too.
+bool has_arcs(const Program& p, int root) {
+    const std::vector<int> needed = p.needed(std::array{root});
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        return (p[id].op == Op::asin || p[id].op == Op::acos) && p[id].depends != 0;
+    });
+}
+
 /// Of a claim that holds on one branch of the constraints and fails on another, the scene's own branch decides.
 /// Returns whether it did.
 bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const Program& p, int root) {
@@ -204,7 +212,7 @@ bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const
         return true;
     }
     const std::optional<bool> zero = own.get(0) != nullptr ? vanishes_at(own, p, root, failure) : std::nullopt;
-    if (zero == true) {
+    if (zero == true && !has_arcs(p, root)) {
         if (depends_on_sides(p, {root}) && in_numbers(told(now), own.motions, p, root) != InNumbers::holds)
             return false;
         c.verdict = Verdict::proved;
@@ -245,26 +253,36 @@ namespace {
 
 void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states);
 
-/// What is proved holds on the scene's own branch in numbers, and at its own initial state. Branches of
-/// constraints whose numbers the prime field lacks, such as x = √3 y, are not seen in exact arithmetic, and the
-/// scene may be on one of them.
+/// Refutes a claim that fails along the motion of the scene; where the claim holds on a side or a branch only, at
+/// its initial state.
+bool fails_along_own_motion(Comparison& now, std::size_t k) {
+    CheckedClaim& c = now.verdicts[k];
+    const GiNaC::ex& residual = now.forms[k].residual;
+    std::optional<OwnMotion::Failure> found;
+    if (now.at == Claim::At::motion)
+        found = now.own_motion.fails(residual, now.positive);
+    else if (const auto at_rest = now.own_motion.fails_at_rest(residual); at_rest && now.assumed.empty())
+        found = {.state = *at_rest};
+    const bool has_sides = std::any_of(c.assumed.begin(), c.assumed.end(), [](const Assumption& one) {
+        return one.kind == Assumption::Kind::side || one.kind == Assumption::Kind::branch;
+    });
+    if (!found || (has_sides && !found->at_start)) return false;
+    c = {};
+    refute(c, found->state);
+    c.reason = found->at_start ? say("it fails at the initial state of the scene")
+                               : say("it fails along the motion of the scene");
+    return true;
+}
+
+/// What is proved holds on the scene's own branch in numbers, and along its own motion. Branches of constraints
+/// whose numbers the prime field lacks, such as x = √3 y, are not seen in exact arithmetic, and the scene may be on
+/// one of them.
 void hold_against_own(Comparison& now, std::size_t k, const Motions& motions) {
     CheckedClaim& c = now.verdicts[k];
-    if (c.verdict != Verdict::proved || c.up_to || now.at == Claim::At::impact || !now.assumed.empty() ||
-        now.is_any_motion || now.forms[k].third || speaks_of_letters(now, k))
+    if (c.verdict != Verdict::proved || c.up_to || now.at == Claim::At::impact || now.is_any_motion ||
+        now.forms[k].third || speaks_of_letters(now, k))
         return;
-    const bool at_rest = now.at == Claim::At::rest;
-    const bool may_have_branches = at_rest || std::any_of(now.m.constraints.begin(), now.m.constraints.end(),
-                                                          [](const Mechanism::Constraint& constraint) {
-                                                              return constraint.position.has_value();
-                                                          });
-    if (!may_have_branches) return;
-    if (const auto shown = fails_at_start(now.forms[k].residual, now.claims, now.e, at_rest)) {
-        c = {};
-        refute(c, *shown);
-        c.reason = say("it fails at the initial state of the scene");
-        return;
-    }
+    if (fails_along_own_motion(now, k) || !now.assumed.empty()) return;
     if (now.at != Claim::At::motion || !motions.own() || (!motions.has_branches() && motions.loose().empty()))
         return;
     Told own = told(now);

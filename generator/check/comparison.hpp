@@ -15,6 +15,7 @@
 #include "check/basis.hpp"
 #include "check/claims.hpp"
 #include "check/counterexample.hpp"
+#include "check/own_motion.hpp"
 #include "check/verdict.hpp"
 
 namespace alembert {
@@ -30,6 +31,7 @@ struct Comparison {
     /// What is positive on the sheet of the scene and its claims, not of repairs that are tried.
     std::vector<GiNaC::ex> positive = {};
     std::vector<GiNaC::ex> assumed = {};  ///< of these, what the claims assume themselves
+    OwnMotion own_motion{claims, e};
 
     // For the claims that are compared now:
     Claim::At at = Claim::At::motion;      ///< motion, rest or impact

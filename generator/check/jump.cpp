@@ -140,6 +140,13 @@ private:
         return std::nullopt;
     }
 
+    /// Whether it is a rate without acceleration: no motion crosses the border there.
+    static bool rests(const RealState& state, const Key& key) {
+        const auto acceleration = state.value.find({Variable::Kind::acceleration, key.second});
+        return key.first == Variable::Kind::rate && acceleration != state.value.end() &&
+               acceleration->second.is_zero();
+    }
+
     Found look(int side, bool must_know) {
         constexpr unsigned tries = 80;
         const int enough = must_know ? 4 : 24;  // an angle jumps on one half of its border alone
@@ -150,7 +157,7 @@ private:
             const auto state = real_state(motions_, program_, {node_, side}, seed);
             if (!state) continue;
             for (const Key& key : moved(side)) {
-                if (!state->value.contains(key)) continue;
+                if (!state->value.contains(key) || rests(*state, key)) continue;
                 const auto border = zero(*state, key, side);
                 if (!border) continue;
                 RealState here = *state;

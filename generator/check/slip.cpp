@@ -261,13 +261,25 @@ private:
         return merged(term, [this](const Tree& tree) { return words_.is_steady(tree); });
     }
 
-    /// Whether it is a number times a term that the claim has.
+    /// Whether a second derivative is in it, or the derivative of a speed.
+    bool has_acceleration(const Tree& term) const {
+        const auto is_speed = [&](const Mechanism::Speed& speed) { return speed.u.get_name() == term.text; };
+        return is_accelerated(term) ||
+               (term.kind == Tree::Kind::name && term.primes > 0 &&
+                std::any_of(m_.speeds.begin(), m_.speeds.end(), is_speed)) ||
+               std::any_of(term.args.begin(), term.args.end(),
+                           [&](const TreePtr& arg) { return has_acceleration(*arg); });
+    }
+
+    /// Whether it is a number times a term that the claim has. On motions an acceleration may be equal to a term
+    /// without any, as in I1*w1' = (I2 - I3)*w2*w3; these are not the same.
     bool is_there(const Tree& term) {
         if (judge_.arithmetic == nullptr || claim_.at == Claim::At::impact)
             return false;  // the pose is fixed there
         const auto values = values_of(term);
         return values && std::any_of(edits_.summands.begin(), edits_.summands.end(), [&](const Summand& s) {
-                   const auto own = s.in_angle ? std::nullopt : values_of(*s.body);
+                   if (s.in_angle || has_acceleration(*s.body) != has_acceleration(term)) return false;
+                   const auto own = values_of(*s.body);
                    if (!own || values->empty()) return false;
                    for (std::size_t k = 1; k < values->size(); ++k)
                        if ((*own)[k] * (*values)[0] != (*own)[0] * (*values)[k]) return false;

@@ -67,8 +67,8 @@ std::vector<std::string> doubts(const Evidence& e) {
                 e.error.moved, e.precision));
     if (e.error.lyapunov && !reasons.empty())
         reasons.push_back(
-            say("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left",
-                *e.error.lyapunov, *e.error.horizon));
+            say("neighbouring motions part by a factor e each {:.2g} s, from t = {:.4g} on no digit is left",
+                1 / *e.error.lyapunov, *e.error.horizon));
     const auto hold = [&](const std::string& what, const std::optional<double>& drift) {
         if (drift && !std::isfinite(*drift))
             reasons.push_back(

@@ -10,6 +10,7 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "model/parameter_values.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/periodic.hpp"
 
@@ -132,13 +133,28 @@ std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const Periodi
     return roots;
 }
 
-/// No loads outside V, and constraints that are holonomic: the multipliers are those of a symplectic matrix.
-bool has_hamiltonian(const Mechanism& m) {
+/// Do the loads outside V have a potential too, at these values of the parameters, and are all constraints holonomic?
+/// The multipliers are then those of a symplectic matrix.
+bool has_hamiltonian(const Mechanism& m, const std::vector<double>& parameters) {
+    constexpr double largest_tree = 2000;
     for (const Mechanism::Constraint& c : m.constraints)
         if (!c.position) return false;
-    for (const bool dissipative : {true, false})
-        for (const ex& load : m.generalized_forces(dissipative))
-            if (!is_identically_zero(load, m)) return false;
+    const ParameterValues values(m, parameters);
+    GiNaC::exmap zeros;
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (values.number(p.symbol) == 0) zeros[p.symbol] = 0;
+    std::vector<ex> Q = m.generalized_forces(false);
+    const std::vector<ex> damping = m.generalized_forces(true);
+    for (std::size_t i = 0; i < Q.size(); ++i) {
+        const ex force = Q[i] + damping[i];
+        if (m.z->tree_size(force) > largest_tree) return false;
+        Q[i] = m.z->expand(force).subs(zeros, GiNaC::subs_options::no_pattern);
+    }
+    for (int i = 0; i < m.size(); ++i)
+        for (int j = 0; j < m.size(); ++j) {
+            if (!is_identically_zero(Q[i].diff(m.qdot[j]), m)) return false;
+            if (j < i && !is_identically_zero(Q[i].diff(m.q[j]) - Q[j].diff(m.q[i]), m)) return false;
+        }
     return true;
 }
 
@@ -173,7 +189,7 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
         throw ModelError(
             say("the equations do not hold t and this state is an equilibrium; leave the period out, or give a "
                 "state on a periodic motion"));
-    result.decision = judged(result, roots, periodic.autonomous(), is_linear(m, d.equations), has_hamiltonian(m));
+    result.decision = judged(result, roots, periodic.autonomous(), is_linear(m, d.equations), has_hamiltonian(m, start.parameters));
     return result;
 }
 

@@ -159,7 +159,10 @@ class Examined:
             self._proved(claim, truth, row)
         elif verdict == "vacuous":
             on_sheet = self._without_lengths(claim)
-            if not has_nothing_of(self.scene, claim) and not (on_sheet and has_nothing_of(self.scene, on_sheet)):
+            where = row.get("where") or []
+            if where and self._holds_on_sheet(claim, where):
+                self.counts["sheets"] += 1
+            elif not has_nothing_of(self.scene, claim) and not (on_sheet and has_nothing_of(self.scene, on_sheet)):
                 self._found(VACUOUS, claim, f"vacuous; it {truth.kind}" + self._at(truth, claim))
         elif verdict == "refuted":
             self._refuted(claim, truth, row)
@@ -190,9 +193,23 @@ class Examined:
 
     def _on_its_sheet(self, claim, where):
         """A sheet of roots of lengths, which is that of the start, and on which the claim holds."""
-        if not self.scene.lengths:
+        if not self.scene.lengths and not self._pulls_by_lengths():
             on_sheet = self._without_lengths(claim)
             return on_sheet is not None and self.truth.judge(on_sheet).kind == HOLDS
+        return self._holds_on_sheet(claim, where)
+
+    def _pulls_by_lengths(self):
+        """Whether a load holds the root of a square of coordinates, whose sheet is that of the start."""
+
+        def is_length(n):
+            if n.op != "sqrt" or n.args[0].op != "^" or n.args[0].args[1] != trees.number(2):
+                return False
+            return all(label in self.scene.coordinates and not dots for label, dots in used(n.args[0].args[0]))
+
+        return any(is_length(n) for load in self.scene.forces.values() for n in trees.parts(self.scene.named(load)))
+
+    def _holds_on_sheet(self, claim, where):
+        """Where conditions on positions say so, which the start fulfils."""
         try:
             conditions = [self.scene.named(c) for c in self._conditions(where)]
             if any(d for c in conditions for _, d in used(c)):

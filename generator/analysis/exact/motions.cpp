@@ -202,21 +202,22 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
 bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism& m,
                                  const std::vector<std::pair<GiNaC::symbol, int>>& given) {
     constexpr std::size_t most_choices = 32;
-    bool loses = false;
+    bool has_factors = false;
     std::vector<std::vector<int>> choices{{}};  // of one factor for each condition
     const auto add = [&](const SolvedUnknown& unknown) {
         std::vector<int> factors;
+        bool is_repeated = false;
         if (const auto sum = sums.find(unknown.node); sum != sums.end()) {
             const TrigonometricProduct product = product_of(sum->second.expand(), m);
+            is_repeated = product.is_repeated;
             for (const ex& base : product.bases) {
                 const ex factor = base.subs(product.functions, GiNaC::subs_options::no_pattern);
                 const int node = lower_expressions(program_, m, {factor}, given)[0];
                 if (!holds_parameters_alone(program_, node)) factors.push_back(node);
             }
         }
-        if (factors.size() < 2) factors = {unknown.node};
-        loses = loses || !std::all_of(factors.begin(), factors.end(),
-                                      [&](int factor) { return holds(program_, factor, unknown); });
+        if (factors.empty() || (factors.size() < 2 && !is_repeated)) factors = {unknown.node};
+        has_factors = has_factors || factors.size() > 1 || is_repeated || !holds(program_, factors[0], unknown);
         std::vector<std::vector<int>> longer;
         for (const std::vector<int>& before : choices)
             for (const int factor : factors) {
@@ -230,7 +231,7 @@ bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism&
         if (step.second) add(*step.second);
         if (choices.size() > most_choices) return false;
     }
-    if (!loses) return true;
+    if (!has_factors) return true;
     for (const std::vector<int>& choice : choices) {
         SolvingOrder other = solving_order(program_, choice);
         if (!other.left.empty() && !contradict(other)) return false;

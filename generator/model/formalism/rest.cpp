@@ -72,6 +72,7 @@ TrigonometricProduct product_of(const ex& e, const Mechanism& m) {
             result.has_poles = true;
         else
             result.bases.push_back(base);
+        result.is_repeated = result.is_repeated || (!divides && !base.is_equal(factor));
     }
     return result;
 }

@@ -18,6 +18,7 @@ namespace alembert {
 struct TrigonometricProduct {
     std::vector<GiNaC::ex> bases;  ///< the factors, in letters
     GiNaC::exmap functions;        ///< letter → sine, cosine …
+    bool is_repeated = false;      ///< whether one of them is there more than once
     bool vanishes = false;         ///< whether the expression is zero
     bool has_poles = false;        ///< whether it is divided by anything that changes
 };

@@ -108,7 +108,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (c.likely) line(say("probable slip: "), words_of(*c.likely));
     if (!c.nearest.empty()) line(say("correct equation: "), c.nearest);
     if (!c.counterexample.empty()) {
-        line(say("it fails at "), text_of_state(c.counterexample));
+        line(say("it fails at "), text_of_state(c.counterexample, text_of(claim.equation)));
         line("", say("where {}", as_written(say("left - right"), c.residual)));
     }
     for (const std::string& sides : c.holds_where) line(say("it holds where "), sides);

@@ -104,7 +104,7 @@ std::string details_of(const MarkedLine& line, const std::string& indent) {
     else
         add(say("wrong term: "), line.term);
     add(say("correct line: "), line.right);
-    add(say("it fails at "), text_of_state(c.counterexample));
+    add(say("it fails at "), text_of_state(c.counterexample, line.claim));
     if (!c.counterexample.empty()) add("", say("where {}", as_written(say("left - right"), c.residual)));
     return page;
 }

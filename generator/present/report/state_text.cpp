@@ -5,6 +5,8 @@
 #include <cln/rational_io.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -80,6 +82,34 @@ std::string text_of_state(const std::vector<std::pair<std::string, std::string>>
     std::string text;
     for (const auto& [name, value] : values) text += (text.empty() ? "" : ", ") + as_written(name, value);
     return text;
+}
+
+std::string text_of_state(std::vector<std::pair<std::string, std::string>> values, const std::string& claim) {
+    const auto is_shown = [&](const std::string& name) {
+        return std::any_of(values.begin(), values.end(), [&](const auto& one) { return one.first == name; });
+    };
+    const auto is_claimed = [&](const std::string& name) {
+        const auto is_of_name = [&](std::size_t at) {
+            return at < claim.size() && (std::isalnum(static_cast<unsigned char>(claim[at])) != 0 ||
+                                         claim[at] == '_' || claim[at] == '\'');
+        };
+        for (std::size_t at = claim.find(name); at != std::string::npos; at = claim.find(name, at + 1))
+            if ((at == 0 || !is_of_name(at - 1)) && !is_of_name(at + name.size())) return true;
+        return false;
+    };
+    bool in_speeds = false;
+    std::vector<std::string> motions;  // rates and accelerations of coordinates
+    for (const auto& [name, value] : values) {
+        const bool is_coordinate = is_shown(name + "''");
+        if (is_coordinate) motions.insert(motions.end(), {name + "'", name + "''"});
+        if (!is_coordinate && !name.ends_with("'") && is_shown(name + "'"))
+            in_speeds = in_speeds || is_claimed(name) || is_claimed(name + "'");
+    }
+    if (in_speeds && std::none_of(motions.begin(), motions.end(), is_claimed))
+        std::erase_if(values, [&](const auto& one) {
+            return std::find(motions.begin(), motions.end(), one.first) != motions.end();
+        });
+    return text_of_state(values);
 }
 
 }  // namespace alembert

@@ -25,5 +25,8 @@ WrittenNumber written_number(const std::string& name, const std::string& value);
 std::string as_written(const std::string& name, const std::string& value);
 /// "m = 3, theta ≈ 67.38°"
 std::string text_of_state(const std::vector<std::pair<std::string, std::string>>& values);
+/// A state at which a claim fails; of a claim in the scene's own speeds without the rates of coordinates, which
+/// follow from them.
+std::string text_of_state(std::vector<std::pair<std::string, std::string>> values, const std::string& claim);
 
 }  // namespace alembert

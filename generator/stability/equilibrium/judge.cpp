@@ -6,6 +6,7 @@
 #include "stability/equilibrium/judge.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "base/language/say.hpp"
 #include "stability/linear/dense_long.hpp"
@@ -137,35 +138,57 @@ std::optional<Beside> beside(const SteadyProblem& problem, Instant<long double> 
                                        [&](const auto& value) { return value.real() > on_axis * size; })};
 }
 
-}  // namespace
+/// Whether the forces there are roundings.
+bool is_balanced(const SteadyProblem& problem, Instant<long double> at) {
+    constexpr long double rounding = 1e-14L;
+    if (!problem.settle_at(at)) return false;
+    const SteadySystem there = problem.linearized_at(at, at.u);
+    return there.residual.size() > 0 &&
+           there.residual.cwiseAbs().maxCoeff() <= rounding * there.by.cwiseAbs().maxCoeff();
+}
 
-Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
-    // Newton's method knows a double root to the square root of its last digits, and a triple root to less.
-    constexpr long double known_to = 2e-5L, much = 0.5L, nothing = 1e-17L;
-    if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
-    const std::optional<Reduced> r = reduced_at(problem, at);
-    const auto values = r ? stiffness(*r) : std::nullopt;
-    if (!values) return Meeting::none;
-    const Index n = static_cast<Index>(r->e.size());
-    const long double least = values->values[n - 1];
-    const VectorOf<long double> softest = values->right.col(n - 1);
+/// Of states at this distance along the softest direction; `unless_forced`: none where there are forces.
+Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>& at, const Reduced& r,
+                       const LongSingularValues& values, long double distance, bool unless_forced) {
+    constexpr long double much = 0.5L, nothing = 1e-17L;
+    const Index n = static_cast<Index>(r.e.size());
+    const long double least = values.values[n - 1];
+    const VectorOf<long double> softest = values.right.col(n - 1);
     const Split split = problem.linearized_at(at, at.u).split;
     long double most = 0, change = 0;
     int growing = 0;
     for (const long double sign : {1.0L, -1.0L}) {
         Instant<long double> other = at;
         for (Index j = 0; j < n; ++j) {
-            const auto q = static_cast<std::size_t>(split.q[static_cast<std::size_t>(r->e[j])]);
-            other.q[q] += sign * known_to * problem.scales()[q] * softest[j];
+            const auto q = static_cast<std::size_t>(split.q[static_cast<std::size_t>(r.e[j])]);
+            other.q[q] += sign * distance * problem.scales()[q] * softest[j];
         }
+        if (unless_forced && !is_balanced(problem, other)) return Meeting::none;
         const auto there = beside(problem, std::move(other));
         if (!there) return Meeting::none;
         most = std::max(most, there->least);
         change = std::max(change, std::abs(there->least - least));
         growing += there->grows ? 1 : 0;
     }
-    if (most <= nothing * values->values[0] || change <= much * least) return Meeting::none;
+    if (most <= nothing * values.values[0] || change <= much * least) return Meeting::none;
     return growing == 2 ? Meeting::grows : Meeting::open;
+}
+
+}  // namespace
+
+Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
+    // Newton's method knows a double root to the square root of its last digits, and roots of higher multiplicity to
+    // less: to where the forces are no more than roundings.
+    constexpr std::array known_to{2e-5L, 1e-4L, 5e-4L, 2.5e-3L};
+    if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
+    const std::optional<Reduced> r = reduced_at(problem, at);
+    const auto values = r ? stiffness(*r) : std::nullopt;
+    if (!values) return Meeting::none;
+    for (const long double distance : known_to) {
+        const Meeting found = meeting_within(problem, at, *r, *values, distance, distance > known_to.front());
+        if (found != Meeting::none) return found;
+    }
+    return Meeting::none;
 }
 
 const char* name_of(Stable stable) {
