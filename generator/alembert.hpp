@@ -20,5 +20,6 @@
 #include "simulate/simulate.hpp"
 #include "simulate/sweep.hpp"
 #include "stability/equilibrium/equilibria.hpp"
+#include "stability/judged_equilibria.hpp"
 #include "stability/linear/about.hpp"
 #include "stability/stability.hpp"

@@ -19,6 +19,7 @@
 #include "present/report/check.hpp"
 #include "present/report/emission.hpp"
 #include "present/report/equilibria.hpp"
+#include "stability/judged_equilibria.hpp"
 #include "present/report/evaluation.hpp"
 #include "present/report/figure.hpp"
 #include "present/report/fmu.hpp"
@@ -237,8 +238,8 @@ Answer do_exponents(Scene scene, const Asked& asked) {
 }
 
 Answer do_equilibrium(Scene scene, const Asked& asked) {
-    return shown(equilibria(
-        std::move(scene),
+    return shown(judged_equilibria(
+        scene,
         {.by = asked.by(), .at = asked.at(), .starts = asked.whole("starts", 0), .progress = asked.progress}));
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "analysis/state/assemble.hpp"
@@ -68,6 +69,16 @@ State<double> stepped(const Program& law, const State<double>& from, double h) {
         result.qdot[i] += h / 6 * (from.qddot[i] + 2 * second.qddot[i] + 2 * third.qddot[i] + fourth.qddot[i]);
     }
     return forced(law, result);
+}
+
+/// Whether nothing is too large or too small for double precision.
+bool is_resolved(const Program& program, const std::vector<int>& roots, const std::vector<double>& value) {
+    const std::vector<int> needed = program.needed(roots);
+    return std::all_of(needed.begin(), needed.end(), [&](int id) {
+        const double x = value[static_cast<std::size_t>(id)];
+        return std::isfinite(x) && (x != 0 || program[id].op != Op::exp) &&
+               (x == 0 || std::abs(x) > std::numeric_limits<double>::min());
+    });
 }
 
 bool is_finite(const State<double>& state) {
@@ -165,7 +176,9 @@ std::optional<OwnMotion::Failure> OwnMotion::failure(const ex& residual, const s
             const std::vector<double> value = interpret(program, state);
             const double left = value[roots[0]], size = size_of_terms(program, roots[0], value);
             const bool is_meant = std::all_of(roots.begin() + 1, roots.end(), [&](int id) { return value[id] > 0; });
-            if (!is_meant || !(std::abs(left) > surely * std::max(size, 1.0)) || !std::isfinite(left)) continue;
+            if (!is_meant || !is_resolved(program, roots, value) ||
+                !(std::abs(left) > surely * std::max(size, 1.0)))
+                continue;
             return Failure{.state = {.values = typed(m, state),
                                      .residual = fmt::format("{:.6g}", left),
                                      .residual_value = left},

@@ -13,6 +13,7 @@
 #include "commands/verb.hpp"
 #include "present/report/branches.hpp"
 #include "present/report/equilibria.hpp"
+#include "stability/judged_equilibria.hpp"
 
 namespace alembert {
 
@@ -61,7 +62,7 @@ int run(const EquilibriumVerb& verb) {
     EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at, scene), .starts = verb.starts};
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Equilibria found = equilibria(std::move(scene), options);
+    const Equilibria found = judged_equilibria(scene, options);
     progress.wipe();
     warn(found.warnings);
     if (verb.json)

@@ -176,10 +176,13 @@ private:
     }
 
     Prime of_other_function(const Node& node, double& degree) {
+        return random_for(node.op, value(node.args[0]), node.args.size() > 1 ? value(node.args[1]).bits() : 0,
+                          degree);
+    }
+    Prime random_for(Op op, Prime a, std::uint64_t b, double& degree) {
         values.exact = false;
         degree += 1;
-        return point_->random(static_cast<std::uint64_t>(node.op), value(node.args[0]).bits(),
-                              node.args.size() > 1 ? value(node.args[1]).bits() : 0);
+        return point_->random(static_cast<std::uint64_t>(op), a.bits(), b);
     }
 
     /// An angle whose sine, cosine or tangent is known; nothing where the other one of sine and cosine is no
@@ -192,7 +195,12 @@ private:
         values.conditions += 1;
         const Prime root = square.root();
         const Prime over = is_of_two ? root.inverse() : Prime(1);
-        const Prime angle = of_other_function(node, degree);
+        // asin, atan, and atan2 in its first argument are odd, and acos is π/2 − asin.
+        const Prime size = std::min(a, -a);
+        const Op op = node.op == Op::acos ? Op::asin : node.op;
+        const Prime of_size = random_for(op, size, node.args.size() > 1 ? b.bits() : 0, degree);
+        const Prime of_a = size == a ? of_size : -of_size;
+        const Prime angle = node.op == Op::acos ? pi_ * Prime(2).inverse() - of_a : of_a;
         known_turns_.emplace(angle, node.op == Op::asin   ? PrimeTurn{root, a}
                                     : node.op == Op::acos ? PrimeTurn{a, root}
                                                           : PrimeTurn{b * over, a * over});

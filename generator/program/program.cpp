@@ -338,7 +338,25 @@ int Program::call(Op op, std::span<const int> args) {
         const int turned = scaled(-1, args[0]);
         return is_even_function(op) ? call(op, {turned}) : scaled(-1, call(op, {turned}));
     }
+    if (const int simpler = simpler_call(op, args); simpler >= 0) return simpler;
     return intern(Node{.op = op, .args = args});
+}
+
+/// By identities that hold wherever both sides have values; −1 if there is none.
+int Program::simpler_call(Op op, std::span<const int> args) {
+    const Node& arg = nodes_[args[0]];
+    const Op inner = arg.op;
+    const int inside = arg.args.empty() ? args[0] : arg.args[0];
+    const bool keeps_sign = inner == Op::tanh || inner == Op::sinh || inner == Op::atan || inner == Op::asin;
+    if (op == Op::abs && keeps_sign) return call(inner, {call(Op::abs, {inside})});
+    if (op == Op::sign && keeps_sign) return call(Op::sign, {inside});
+    if (op == Op::log && inner == Op::product && arg.args.size() == 1 && arg.exponents[0] % 2 == 0) {
+        const int exponent = arg.exponents[0];
+        return scaled(exponent, call(Op::log, {call(Op::abs, {inside})}));
+    }
+    if (op == Op::atan2 && nodes_[args[1]].is_number() && cln::plusp(nodes_[args[1]].number))
+        return call(Op::atan, {scaled(cln::recip(nodes_[args[1]].number), args[0])});
+    return -1;
 }
 
 std::vector<int> Program::needed(std::span<const int> roots) const {

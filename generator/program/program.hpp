@@ -268,6 +268,7 @@ private:
     /// The node with these contents, whose lists may stand anywhere.
     int intern(const Node& contents);
     int scaled(const Rational& coefficient, int node);
+    int simpler_call(Op op, std::span<const int> args);
 
     std::vector<Node> nodes_;
     KnownItems known_;

@@ -278,7 +278,7 @@ class Examined:
 
     def _sheeted(self, claim):
         """Whether a claim holds on the sheet of the start at least, in scenes with roots of lengths."""
-        if not self.scene.lengths or claim.at != "motion":
+        if not (self.scene.lengths or self._pulls_by_lengths()) or claim.at != "motion":
             return False
         start = self.truth.start
         conditions = []

@@ -142,11 +142,17 @@ std::vector<double> numbers(const Mechanism& m, const std::vector<GiNaC::ex>& li
 /// one of the former, and each solution that is real at these parameters must be a root.
 void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const Start& start,
                       const std::function<void(const FoundRoot&)>& add) {
-    constexpr long double same = 1e-9L, same_if_multiple = 1e-4L;
+    // Newton's method comes no nearer to a root of high multiplicity, and takes it for one of a continuum.
+    constexpr long double same = 1e-9L, same_if_multiple = 1e-4L, same_if_meeting = 5e-3L;
     const Mechanism& m = result.mechanism;
     const auto vanishes = [&](const GiNaC::ex& e) { return !(std::abs(numbers(m, {e}, start)[0]) > 1e-13); };
     auto roots = closed_form(m, result.equations, problem.essential(), vanishes);
     if (!roots) return;
+    const auto place = [&](const Equilibrium& one) {
+        Instant<long double> at = problem.start();
+        at.q.assign(one.start.q.begin(), one.start.q.end());
+        return at;
+    };
     bool agrees = true;
     for (ClosedRoot& root : *roots) {
         const std::vector<double> q = numbers(m, root.value, start);
@@ -160,9 +166,8 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
         wrap_angles(at, result.search.is_angle);
         const auto find = [&](long double tolerance) {
             return std::find_if(result.list.begin(), result.list.end(), [&](const Equilibrium& one) {
-                Instant<long double> other = at;
-                other.q.assign(one.start.q.begin(), one.start.q.end());
-                return distance(problem, result.search.is_angle, at, other) < tolerance;
+                const long double apart = distance(problem, result.search.is_angle, at, place(one));
+                return apart < (one.judgement.meets && tolerance > same ? same_if_meeting : tolerance);
             });
         };
         auto found = find(same);
@@ -175,8 +180,16 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
         if (found == result.list.end() || found->exact) continue;
         for (std::size_t i = 0; i < q.size(); ++i)
             if (problem.essential()[i]) found->start.q[i] = static_cast<double>(at.q[i]);
+        if (found->judgement.meets) found->family.reset();
         found->exact = std::move(root);
     }
+    std::erase_if(result.list, [&](const Equilibrium& one) {
+        return !one.exact && one.judgement.meets &&
+               std::any_of(result.list.begin(), result.list.end(), [&](const Equilibrium& other) {
+                   return other.exact && distance(problem, result.search.is_angle, place(other), place(one)) <
+                                             same_if_meeting;
+               });
+    });
     for (const Equilibrium& one : result.list) agrees = agrees && one.exact;
     result.closed = agrees;
     std::sort(result.absent.begin(), result.absent.end(),

@@ -18,6 +18,7 @@ using Index = Eigen::Index;
 constexpr long double whole_turn = 2 * 3.14159265358979323846264338327950288L;
 constexpr long double free_below = 1e-10L;  // relative to the largest singular value
 constexpr long double beside_root = 1e-3L;  // of a root beside another, in units of the scales
+constexpr long double farther = 20;  // times this: beside a root of high multiplicity Newton's method moves no more
 constexpr long double direction = 0.1L;     // how far changes of length 1 must differ to be different directions
 constexpr int most_ways = 100;
 constexpr long double arrived = 1e-6L, least_way = 1e-3L, usual_way = 0.25L, straight = 0.3L, bend = 0.1L;
@@ -134,10 +135,16 @@ std::optional<SteadyFamily> family_of(const SteadyProblem& problem, const std::v
     Index least = k;
     for (Index j = 0; j < k; ++j)
         for (const long double step : {beside_root, -beside_root}) {
-            const auto beside = problem.solve(moved(root.at, here, step * LongColumn::Unit(k, j)), rates);
-            if (!beside) continue;
+            const auto root_at = [&](long double distance) -> std::optional<SteadyRoot> {
+                auto found_there = problem.solve(moved(root.at, here, distance * LongColumn::Unit(k, j)), rates);
+                if (!found_there) return std::nullopt;
+                const long double apart = way(problem, is_angle, root.at, found_there->at).norm();
+                const bool is_near = apart > std::abs(distance) / 3 && apart < 3 * std::abs(distance);
+                return is_near ? found_there : std::nullopt;
+            };
+            const auto beside = root_at(step);
+            if (!beside || !root_at(farther * step)) continue;
             const LongColumn to = way(problem, is_angle, root.at, beside->at);
-            if (!(to.norm() > beside_root / 3 && to.norm() < 3 * beside_root)) continue;
             found.conservativeResize(Eigen::NoChange, found.cols() + 1);
             found.col(found.cols() - 1) = to / to.norm();
             const Tangents there = tangents_at(problem, beside->at, rates);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/language/say.hpp"
 #include "stability/linear/dense_long.hpp"
@@ -138,16 +139,16 @@ std::optional<Beside> beside(const SteadyProblem& problem, Instant<long double> 
                                        [&](const auto& value) { return value.real() > on_axis * size; })};
 }
 
-/// Whether the forces there are roundings.
+/// Whether Newton's method might take that state for a root.
 bool is_balanced(const SteadyProblem& problem, Instant<long double> at) {
-    constexpr long double rounding = 1e-14L;
+    constexpr long double nothing = 1e-12L;  // it is content with 1e-13 of the effect of an ordinary change
     if (!problem.settle_at(at)) return false;
     const SteadySystem there = problem.linearized_at(at, at.u);
     return there.residual.size() > 0 &&
-           there.residual.cwiseAbs().maxCoeff() <= rounding * there.by.cwiseAbs().maxCoeff();
+           there.residual.cwiseAbs().maxCoeff() <= nothing * there.by.cwiseAbs().maxCoeff();
 }
 
-/// Of states at this distance along the softest direction; `unless_forced`: none where there are forces.
+/// Of states at this distance, in units of the scales, along the softest direction; `unless_forced`: none where there are forces.
 Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>& at, const Reduced& r,
                        const LongSingularValues& values, long double distance, bool unless_forced) {
     constexpr long double much = 0.5L, nothing = 1e-17L;
@@ -155,14 +156,16 @@ Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>&
     const long double least = values.values[n - 1];
     const VectorOf<long double> softest = values.right.col(n - 1);
     const Split split = problem.linearized_at(at, at.u).split;
-    long double most = 0, change = 0;
+    std::vector<std::size_t> moved;
+    for (const Index e : r.e) moved.push_back(static_cast<std::size_t>(split.q[static_cast<std::size_t>(e)]));
+    long double squares = 0, most = 0, change = 0;
+    for (std::size_t j = 0; j < moved.size(); ++j)
+        squares += std::pow(softest[static_cast<Index>(j)] / problem.scales()[moved[j]], 2.0L);
     int growing = 0;
     for (const long double sign : {1.0L, -1.0L}) {
         Instant<long double> other = at;
-        for (Index j = 0; j < n; ++j) {
-            const auto q = static_cast<std::size_t>(split.q[static_cast<std::size_t>(r.e[j])]);
-            other.q[q] += sign * distance * problem.scales()[q] * softest[j];
-        }
+        for (std::size_t j = 0; j < moved.size(); ++j)
+            other.q[moved[j]] += sign * distance / std::sqrt(squares) * softest[static_cast<Index>(j)];
         if (unless_forced && !is_balanced(problem, other)) return Meeting::none;
         const auto there = beside(problem, std::move(other));
         if (!there) return Meeting::none;
@@ -178,7 +181,7 @@ Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>&
 
 Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
     // Newton's method knows a double root to the square root of its last digits, and roots of higher multiplicity to
-    // less: to where the forces are no more than roundings.
+    // less: to where the forces are next to nothing.
     constexpr std::array known_to{2e-5L, 1e-4L, 5e-4L, 2.5e-3L};
     if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
     const std::optional<Reduced> r = reduced_at(problem, at);
@@ -235,6 +238,7 @@ StabilityHint judge(const SteadyProblem& problem, EnergyRate energy, const Insta
     const auto turning = count([](const auto& v) { return v.real() == 0 && v.imag() != 0; });
     const auto zeros = count([](const auto& v) { return v.real() == 0 && v.imag() == 0; });
     if (meeting_at(problem, at) == Meeting::open) {
+        result.meets = true;
         result.because = say(
             "equilibria meet here, or nearly so: which way the first approximation decides, the last digits of "
             "the state tell");

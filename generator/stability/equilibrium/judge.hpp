@@ -24,6 +24,7 @@ struct StabilityHint {
     Stable stable = Stable::undecided;
     std::string because;
     bool by_energy = false;
+    bool meets = false;     ///< whether others meet it there, or nearly so, and nothing was decided therefore
     bool singular = false;  ///< whether some inertia vanishes here, as at a pole of spherical coordinates
     std::vector<std::complex<double>> eigenvalues =
         {};  ///< by real part, then imaginary part; a real part that is only rounding is 0
