@@ -19,7 +19,6 @@
 #include "present/report/check.hpp"
 #include "present/report/emission.hpp"
 #include "present/report/equilibria.hpp"
-#include "stability/judged_equilibria.hpp"
 #include "present/report/evaluation.hpp"
 #include "present/report/figure.hpp"
 #include "present/report/fmu.hpp"
@@ -38,6 +37,7 @@
 #include "scene/claims_file.hpp"
 #include "scene/units.hpp"
 #include "simulate/samples.hpp"
+#include "stability/judged_equilibria.hpp"
 #include "stability/linear/about.hpp"
 
 namespace alembert {

@@ -155,6 +155,39 @@ y = "(y^2 - 2)*y"
                    {refuted, proved});
 }
 
+TEST_CASE("check: rest where a factor is there twice, and its corrections, are looked at in all factors") {
+    for (const std::string start : {"0", "\"sqrt(7)\""}) {
+        const Checked found = checked_on_sheets(pushed_by("-(x^2 - 7)*(x^2 - 7)*x", start),
+                                                "rest\nx = 0\nx^2 = 7\nx^4 + 49 = 14*x^2\nx*(x^2 - 7) = 0\n");
+        for (std::size_t k = 0; k < 3; ++k) CHECK(found.claims[k].verdict == refuted);
+        for (const CheckedClaim& claim : found.claims) CHECK(claim.nearest.empty());
+    }
+    check_verdicts(checked_on_sheets(pushed_by("(x^2 - 3)*(x^2 - 3)", "\"sqrt(3)\""), "rest\nx = 0\n"), {refuted});
+    for (const CheckedClaim& claim : checked_on_sheets(pushed_by("-(x^2 - 1.5)*(x^2 - 2)*x", "\"sqrt(1.5)\""),
+                                                       "rest\nx*(x^2 - 1.5) = 0\n(x^2 - 1.5)*(x^2 - 2) = 0\n")
+                                         .claims) {
+        CHECK(claim.verdict == refuted);
+        CHECK(claim.nearest.empty());
+    }
+}
+
+// Of logarithms, hyperbolic tangents and arcs exact arithmetic knows little; what holds on both sides is no
+// mistake.
+TEST_CASE("check: identities of elementary functions hold on all sides, and their neighbours do not") {
+    check_verdicts(checked_on_sheets(pushed_by("-k*abs(x)"), R"(
+m*x''*log((x' - 2)^2) = -2*k*abs(x)*log(abs(x' - 2))
+m*x'' = -k*abs(x)*(acos(x) + asin(x))*2/pi
+m*x''*abs(tanh(x - 1)) = -k*abs(x)*tanh(abs(x - 1))
+m*x''*atan2(x', 3) = -k*abs(x)*atan(x'/3)
+m*x''*asin(7 - x') = k*abs(x)*asin(x' - 7)
+m*x''*log((x' - 2)^2) = -2*k*abs(x)*log(abs(x' + 2))
+m*x'' = -k*abs(x)*(acos(x) - asin(x))*2/pi
+m*x''*abs(tanh(x - 1)) = -k*abs(x)*tanh(x - 1)
+m*x''*atan2(x', x) = -k*abs(x)*atan(x'/x)
+)"),
+                   {proved, proved, proved, proved, proved, refuted, refuted, refuted, refuted});
+}
+
 TEST_CASE("check: an equation of rest that is solved for a parameter has its other factors too") {
     const std::string across = R"toml(
 [parameters]
@@ -341,6 +374,33 @@ nonholonomic = "y' - {}"
 )toml",
                                               rate);
         CHECK_THROWS_AS(prepared(parse_scene(scene, "scene.toml"), {}, true), SceneError);
+    }
+}
+
+TEST_CASE("check: the sine of an arc has its sign on one half of a circle, whatever other branches there are") {
+    for (const std::string factor : {"", "(x + y)*", "(2*y + x - 5)*", "(x*y - 2)*"}) {
+        CAPTURE(factor);
+        const Checked found = checked_on_sheets(fmt::format(R"toml(
+gravity = [0, "-g"]
+[parameters]
+l = 2
+m = 1.5
+g = 9.81
+[coordinates]
+x = {{ initial = "l*cos(pi/6)" }}
+y = {{ initial = "l*sin(pi/6)" }}
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[[constraint]]
+name = "z0"
+holonomic = "{}(x^2 + y^2 - l^2)"
+)toml",
+                                                            factor),
+                                                "y = l*sin(acos(x/l))\n");
+        check_verdicts(found, {proved});
+        CHECK(conditions_of(found.claims[0]) == std::vector<std::string>{"y/l > 0"});
     }
 }
 

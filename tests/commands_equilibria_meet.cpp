@@ -145,6 +145,24 @@ TEST_CASE("equilibrium: a pitchfork is found once, where the stiffness of both b
         }
 }
 
+// V = (x - a)^5/5 along the soft direction: the force is never positive there, so that every such rest is
+// unstable, and Newton's method comes no nearer to it than 1e-4.
+TEST_CASE("equilibrium, stability: a rest of high multiplicity is one, and unstable where its state is exact") {
+    for (const auto& [a, slope] : {std::pair("0.5", "0.5"), std::pair("0.3", "2"), std::pair("-1.2", "1")}) {
+        CAPTURE(a);
+        const std::string scene = temporary(
+            "flat.toml",
+            fmt::format("[coordinates]\nx = \"{0} + 0.1\"\ny = 0.3\n[energy]\nkinetic = \"(x'^2 + y'^2)/2\"\n"
+                        "potential = \"(x - ({0}))^5/5 + 0.9*(y - {1}*x)^2\"\n[forces]\n"
+                        "x = \"-x'/2\"\ny = \"-y'/2\"\n",
+                        a, slope));
+        const Json found = json_of({"equilibrium", scene, "--json"});
+        REQUIRE(found["equilibria"].size() == 1);
+        CHECK(found["equilibria"][0]["stable"] == "no");
+        CHECK(run({"stability", scene}).out.find("stable:") == std::string::npos);
+    }
+}
+
 // A shaft with internal friction that turns faster than it swings: whirl grows (a classical result on rotors).
 TEST_CASE("stability: dampers along turning axes may push, and the energy is no proof") {
     const std::string shaft =

@@ -30,8 +30,8 @@ TEST_CASE("report: numbers of a state have four digits, and angles are in degree
 }
 
 TEST_CASE("report: the state of a claim in speeds is told in speeds, and each other one whole") {
-    const std::vector<std::pair<std::string, std::string>> state{{"A", "1"},    {"psi", "2"},  {"psi'", "3"}, {"psi''", "4"},
-                                                                 {"wx", "5"},   {"wx'", "6"}};
+    const std::vector<std::pair<std::string, std::string>> state{{"A", "1"},     {"psi", "2"}, {"psi'", "3"},
+                                                                 {"psi''", "4"}, {"wx", "5"},  {"wx'", "6"}};
     CHECK(alembert::text_of_state(state, "A*wx' = 0") == "A = 1, psi = 2, wx = 5, wx' = 6");
     CHECK(alembert::text_of_state(state, "A*wx' = psi'") ==
           "A = 1, psi = 2, psi' = 3, psi'' = 4, wx = 5, wx' = 6");

@@ -62,17 +62,23 @@ TEST_CASE("stability: Floquet multipliers of Mathieu's equation agree with Hill'
     }
 }
 
-TEST_CASE("stability: multipliers on the circle decide where a linear force has a potential, and not where a damper acts") {
+TEST_CASE(
+    "stability: multipliers on the circle decide where a linear force has a potential, and not where a damper "
+    "acts") {
     const auto mathieu = [](const std::string& c, const std::string& force) {
-        return parse_scene("[parameters]\na = 0.5\nq = 0.2\nc = " + c +
-                              "\n[coordinates]\nx = 0\ny = 0\n[energy]\nkinetic = \"x'^2/2 + y'^2/2\"\n[forces]\n" + force, "case.toml");
+        return parse_scene(
+            "[parameters]\na = 0.5\nq = 0.2\nc = " + c +
+                "\n[coordinates]\nx = 0\ny = 0\n[energy]\nkinetic = \"x'^2/2 + y'^2/2\"\n[forces]\n" + force,
+            "case.toml");
     };
     const std::string along_x = "x = \"-(a - 2*q*cos(2*t))*x - c*x'\"\n";
     const std::string alone = along_x + "y = \"-2.3*y\"\n", turned = along_x + "y = \"-2.3*y + x*cos(2*t)/5\"\n",
-                      both = "x = \"-(a - 2*q*cos(2*t))*x - c*x' + y*cos(2*t)/5\"\ny = \"-2.3*y + x*cos(2*t)/5\"\n";
+                      both =
+                          "x = \"-(a - 2*q*cos(2*t))*x - c*x' + y*cos(2*t)/5\"\ny = \"-2.3*y + x*cos(2*t)/5\"\n";
     CHECK(judged(mathieu("0", alone), {}).verdict == V::stable);
     CHECK(judged(mathieu("0", both), {}).verdict == V::stable);
-    CHECK(judged(mathieu("0", turned), {}).verdict != V::stable);  // no potential: nothing keeps the multipliers on the circle
+    CHECK(judged(mathieu("0", turned), {}).verdict !=
+          V::stable);  // no potential: nothing keeps the multipliers on the circle
     CHECK(judged(mathieu("0.1", along_x + "y = \"-2.3*y - c*y'\"\n"), {}).verdict == V::asymptotically_stable);
 }
 

@@ -111,6 +111,12 @@ std::vector<Factors> products_of_speeds(const Mechanism& m) {
 
 EquationTerms equation_terms(const Mechanism& m, const Equations& e) {
     EquationTerms result;
+    // With multipliers that the equations leave open there is no derivation to be shown.
+    std::vector<GiNaC::symbol> open;
+    for (const Mechanism::Constraint* c : m.undetermined()) open.push_back(c->multiplier);
+    result.is_short =
+        std::none_of(e.own.begin(), e.own.end(), [&](const ex& force) { return m.z->depends(force, open); });
+    if (!result.is_short) return result;
     const Derivation shown = derivation_of(m, e);
     result.is_short = shown.definitions.empty();
     if (!result.is_short) return result;

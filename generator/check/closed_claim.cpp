@@ -106,9 +106,8 @@ bool has_roots_of_rates(const Comparison& now, std::size_t k) {
 
 /// Whether the initial state has what the claims assume: only then does its branch decide.
 bool starts_where_assumed(Comparison& now) {
-    return std::all_of(now.assumed.begin(), now.assumed.end(), [&](const GiNaC::ex& positive) {
-        return now.own_motion.is_positive_at_start(positive);
-    });
+    return std::all_of(now.assumed.begin(), now.assumed.end(),
+                       [&](const GiNaC::ex& positive) { return now.own_motion.is_positive_at_start(positive); });
 }
 
 /// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
@@ -184,8 +183,8 @@ void prove_by_digits(CheckedClaim& c) {
     c.failure = failure;
 }
 
-/// Whether it holds values of asin or acos, whose sines and cosines are roots: y = l*sin(acos(x/l)) holds on one half
-/// of a circle, in exact arithmetic too.
+/// Whether it holds values of asin or acos, whose sines and cosines are roots: y = l*sin(acos(x/l)) holds on one
+/// half of a circle, in exact arithmetic too.
 bool has_arcs(const Program& p, int root) {
     const std::vector<int> needed = p.needed(std::array{root});
     return std::any_of(needed.begin(), needed.end(), [&](int id) {
@@ -275,8 +274,8 @@ bool fails_along_own_motion(Comparison& now, std::size_t k) {
 }
 
 /// What is proved holds on the scene's own branch in numbers, and along its own motion. Branches of constraints
-/// whose numbers the prime field lacks, such as x = √3 y, are not seen in exact arithmetic, and the scene may be on
-/// one of them.
+/// whose numbers the prime field lacks, such as x = √3 y, are not seen in exact arithmetic, and the scene may be
+/// on one of them.
 void hold_against_own(Comparison& now, std::size_t k, const Motions& motions) {
     CheckedClaim& c = now.verdicts[k];
     if (c.verdict != Verdict::proved || c.up_to || now.at == Claim::At::impact || now.is_any_motion ||

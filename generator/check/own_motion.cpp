@@ -58,9 +58,11 @@ State<double> forced(const Program& law, State<double> state) {
     return state;
 }
 
-/// One step of the classical method of Runge and Kutta. Each state is one of the system, however long the steps are.
+/// One step of the classical method of Runge and Kutta. Each state is one of the system, however long the steps
+/// are.
 State<double> stepped(const Program& law, const State<double>& from, double h) {
-    const State<double> second = forced(law, moved(from, from, h / 2)), third = forced(law, moved(from, second, h / 2)),
+    const State<double> second = forced(law, moved(from, from, h / 2)),
+                        third = forced(law, moved(from, second, h / 2)),
                         fourth = forced(law, moved(from, third, h));
     State<double> result = from;
     result.t += h;
@@ -119,7 +121,8 @@ void OwnMotion::follow(Start start, const Program& constraints) {
     const Mechanism& m = claims_.mechanism();
     const Program law = lower(m, e_, energy_of(m), {.admissible = [&start] { return start; }});
     motion_.push_back(forced(law, start.state()));
-    const int steps = static_cast<int>(std::min<std::size_t>(most_steps, most_work / (4 * static_cast<std::size_t>(law.size()) + 1)));
+    const int steps = static_cast<int>(
+        std::min<std::size_t>(most_steps, most_work / (4 * static_cast<std::size_t>(law.size()) + 1)));
     if (!m.unilateral.empty()) return;
     const double h = std::min(start.duration, longest_motion) / most_steps;
     State<double> now = motion_.back();
@@ -175,7 +178,8 @@ std::optional<OwnMotion::Failure> OwnMotion::failure(const ex& residual, const s
         for (const State<double>& state : states) {
             const std::vector<double> value = interpret(program, state);
             const double left = value[roots[0]], size = size_of_terms(program, roots[0], value);
-            const bool is_meant = std::all_of(roots.begin() + 1, roots.end(), [&](int id) { return value[id] > 0; });
+            const bool is_meant =
+                std::all_of(roots.begin() + 1, roots.end(), [&](int id) { return value[id] > 0; });
             if (!is_meant || !is_resolved(program, roots, value) ||
                 !(std::abs(left) > surely * std::max(size, 1.0)))
                 continue;

@@ -36,7 +36,8 @@ public:
     std::optional<Counterexample> fails_at_rest(const GiNaC::ex& residual);
 
 private:
-    /// Those that have what the value depends on: all, or the initial state alone where there are no accelerations.
+    /// Those that have what the value depends on: all, or the initial state alone where there are no
+    /// accelerations.
     const std::vector<State<double>>& states_for(const std::vector<GiNaC::ex>& values);
     void make();
     void follow(Start start, const Program& constraints);

@@ -133,8 +133,8 @@ std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const Periodi
     return roots;
 }
 
-/// Do the loads outside V have a potential too, at these values of the parameters, and are all constraints holonomic?
-/// The multipliers are then those of a symplectic matrix.
+/// Do the loads outside V have a potential too, at these values of the parameters, and are all constraints
+/// holonomic? The multipliers are then those of a symplectic matrix.
 bool has_hamiltonian(const Mechanism& m, const std::vector<double>& parameters) {
     constexpr double largest_tree = 2000;
     for (const Mechanism::Constraint& c : m.constraints)
@@ -189,7 +189,8 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
         throw ModelError(
             say("the equations do not hold t and this state is an equilibrium; leave the period out, or give a "
                 "state on a periodic motion"));
-    result.decision = judged(result, roots, periodic.autonomous(), is_linear(m, d.equations), has_hamiltonian(m, start.parameters));
+    result.decision = judged(result, roots, periodic.autonomous(), is_linear(m, d.equations),
+                             has_hamiltonian(m, start.parameters));
     return result;
 }
 

@@ -160,9 +160,9 @@ private:
     /// Orders the conditions of rest: constraints, and sums that vanish.
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
-    /// Where an equation of rest has factors: all choices of one factor of each equation, since one of them may lack
-    /// the variable for which the equation is solved, have no root in exact arithmetic, or be there twice, which
-    /// Newton's method does not like. False if one of the choices cannot be solved.
+    /// Where an equation of rest has factors: all choices of one factor of each equation, since one of them may
+    /// lack the variable for which the equation is solved, have no root in exact arithmetic, or be there twice,
+    /// which Newton's method does not like. False if one of the choices cannot be solved.
     bool find_other_factors(const std::map<int, GiNaC::ex>& sums, const Mechanism& m,
                             const std::vector<std::pair<GiNaC::symbol, int>>& given);
     /// Whether conditions that are left are not zero where the steps are taken.

@@ -282,8 +282,10 @@ void add_account(std::string& page, const Run& run) {
             say_on(page,
                    "the run ends at the instant of an impact or impulse: its end may be on either side of it\n");
         if (e.lyapunov)
-            say_on(page, "neighbouring motions part by a factor e each {:.3g} s; no digit is left after about t = {:.4g}\n",
-                   1 / *e.lyapunov, *e.horizon);
+            say_on(
+                page,
+                "neighbouring motions part by a factor e each {:.3g} s; no digit is left after about t = {:.4g}\n",
+                1 / *e.lyapunov, *e.horizon);
     }
     const EnergyAccount& energy = run.energy;
     if (energy.impact_loss != 0) say_on(page, "\nlost in impacts {:.10g}", energy.impact_loss);

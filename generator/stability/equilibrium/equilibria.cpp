@@ -186,8 +186,8 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
     std::erase_if(result.list, [&](const Equilibrium& one) {
         return !one.exact && one.judgement.meets &&
                std::any_of(result.list.begin(), result.list.end(), [&](const Equilibrium& other) {
-                   return other.exact && distance(problem, result.search.is_angle, place(other), place(one)) <
-                                             same_if_meeting;
+                   return other.exact &&
+                          distance(problem, result.search.is_angle, place(other), place(one)) < same_if_meeting;
                });
     });
     for (const Equilibrium& one : result.list) agrees = agrees && one.exact;

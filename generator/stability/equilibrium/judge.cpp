@@ -148,7 +148,8 @@ bool is_balanced(const SteadyProblem& problem, Instant<long double> at) {
            there.residual.cwiseAbs().maxCoeff() <= nothing * there.by.cwiseAbs().maxCoeff();
 }
 
-/// Of states at this distance, in units of the scales, along the softest direction; `unless_forced`: none where there are forces.
+/// Of states at this distance, in units of the scales, along the softest direction; `unless_forced`: none where
+/// there are forces.
 Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>& at, const Reduced& r,
                        const LongSingularValues& values, long double distance, bool unless_forced) {
     constexpr long double much = 0.5L, nothing = 1e-17L;
@@ -180,8 +181,8 @@ Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>&
 }  // namespace
 
 Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
-    // Newton's method knows a double root to the square root of its last digits, and roots of higher multiplicity to
-    // less: to where the forces are next to nothing.
+    // Newton's method knows a double root to the square root of its last digits, and roots of higher multiplicity
+    // to less: to where the forces are next to nothing.
     constexpr std::array known_to{2e-5L, 1e-4L, 5e-4L, 2.5e-3L};
     if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
     const std::optional<Reduced> r = reduced_at(problem, at);
