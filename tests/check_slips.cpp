@@ -106,16 +106,15 @@ TEST_CASE(
 // The contact forces of the wheels are multipliers that the equations of motion do not hold.
 TEST_CASE("check: a slip beside multipliers that the equations leave open is named") {
     const Scene scene = read_scene(source_path("scenes/gallery/bicycle.toml"));
-    const Prepared made = prepared(
+    const CheckedScene found = check(
         with_claims(scene,
                     "(mB*dot(vel(frame), ex(N)) + mR*dot(vel(rear_wheel), ex(N)) + mH*dot(vel(fork), ex(N)) - "
                     "mF*dot(vel(front_wheel), ex(N)))' = lambda_rear_rolls_x + lambda_front_rolls_x\n",
-                    "slips"),
-        {}, true);
-    const Checked result = check(made.scene, made.mechanism, made.sheets);
-    REQUIRE(result.claims[0].verdict == Verdict::refuted);
-    REQUIRE(result.claims[0].likely);
-    CHECK(words_of(*result.claims[0].likely) == "the sign of mF*dot(vel(front_wheel), ex(N))");
+                    "slips"));
+    const CheckedClaim& claim = found.checked.claims[0];
+    REQUIRE(claim.verdict == Verdict::refuted);
+    REQUIRE(claim.likely);
+    CHECK(words_of(*claim.likely) == "the sign of mF*dot(vel(front_wheel), ex(N))");
 }
 
 }  // namespace check_slips
