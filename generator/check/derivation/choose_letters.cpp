@@ -10,6 +10,7 @@
 #include "check/derivation/claim_text.hpp"
 #include "check/derivation/general_law.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/derivation/readings.hpp"
 
 namespace alembert {
 
@@ -160,6 +161,44 @@ void tell_hands(ChosenLetters& chosen, const Written& written) {
     }
 }
 
+/// Whether letters of this hand and names of that are written for the same kind of thing.
+bool are_of_one_kind(const std::string& letter, const std::string& name) {
+    static const std::vector<std::set<std::string>> kinds{
+        {"l", "L", "ell", "R", "r", "a", "b", "d", "h", "s", "D", "H", "rho", "e", "c"},
+        {"m", "M", "mu"},
+        {"g", "G"},
+        {"k", "K", "c", "C", "kappa"},
+        {"J", "I", "Theta", "A", "B", "C"},
+        {"c", "b", "d", "beta", "gamma", "delta", "mu", "eta", "k"},
+        {"F", "P", "Q", "S", "N", "T", "f", "lambda", "mu", "R"},
+        {"omega", "Omega", "w", "nu", "n"},
+        {"theta", "phi", "varphi", "vartheta", "alpha", "beta", "psi", "gamma", "delta", "q", "chi"},
+        {"x", "y", "z", "r", "s", "q", "u", "xi", "eta", "zeta", "rho", "X", "Y", "Z"}};
+    std::string base = name.substr(0, name.find('_'));
+    while (base.size() > 1 && std::isdigit(static_cast<unsigned char>(base.back())) != 0) base.pop_back();
+    return letter == base || std::any_of(kinds.begin(), kinds.end(), [&](const std::set<std::string>& kind) {
+               return kind.contains(letter) && kind.contains(base);
+           });
+}
+
+/// What speaks for a guess: the lines with the letter that are right, and those that are mistakes.
+bool is_borne_out(const std::pair<Letter, std::string>& guess, const Written& written, const Marker& marker) {
+    int right = 0, wrong = 0;
+    for (const MarkedLine& line : marker.lines) {
+        std::map<Letter, int> all;
+        for (const MathPtr& side : written.statements[line.statement].sides) collect_letters(*side, all);
+        if (!all.contains(guess.first)) continue;
+        const bool is_fine = line.status == LineStatus::right || line.status == LineStatus::right_near ||
+                             line.status == LineStatus::right_up_to_constant ||
+                             line.status == LineStatus::right_up_to_derivative ||
+                             line.status == LineStatus::unfounded;
+        right += is_fine ? 1 : 0;
+        wrong += line.status == LineStatus::mistake ? 1 : 0;
+    }
+    const int needed = are_of_one_kind(guess.first.base, guess.second) ? 1 : 2;
+    return right >= needed && right >= wrong;
+}
+
 Letters with(Letters letters, const Assignment& assignment) {
     for (const auto& [letter, name] : assignment) letters.bind(letter, name);
     return letters;
@@ -169,7 +208,7 @@ Letters with(Letters letters, const Assignment& assignment) {
 
 ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
                              const std::map<std::string, std::string>& given) {
-    ChosenLetters result{.letters = Letters(system.scene()), .told = {}, .remarks = {}};
+    ChosenLetters result{.letters = Letters(system.scene()), .told = {}, .given = {}, .remarks = {}};
     const Scene& scene = system.scene();
     for (const auto& [text, name] : given) {
         if (!is_name(name, result.letters))
@@ -177,8 +216,10 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
                                  text, name, fmt::join(result.letters.scene_names(), ", ")),
                              {});
         result.letters.bind(letter_in(text), name);
+        result.given.insert(letter_in(text));
         result.told[text] = name;
     }
+    result.letters = with_authors_letters(std::move(result.letters), written);
     for (const Letter& letter : perhaps_forces(written, result.letters)) {
         Letters otherwise = result.letters;
         otherwise.leave_open(letter);
@@ -207,6 +248,11 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
             if (score > highest) highest = score, chosen = whole;
         }
         best = chosen;
+    }
+    if (!best.empty()) {
+        Marker marker(system, written, with(result.letters, best));
+        marker.run();
+        std::erase_if(best, [&](const auto& guess) { return !is_borne_out(guess, written, marker); });
     }
     result.letters = with(std::move(result.letters), best);
     for (const auto& [letter, name] : best) result.told[shown(letter)] = name;

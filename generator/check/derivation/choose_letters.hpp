@@ -7,6 +7,7 @@
 ///     choose_letters(system, written, {{"\\ell", "l"}}).told      // "\\varphi" → "theta"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace alembert {
 struct ChosenLetters {
     Letters letters;
     std::map<std::string, std::string> told;  ///< as written → in the scene, where these differ
+    std::set<Letter> given;                   ///< those that the user has said
     std::vector<std::string> remarks;         ///< what was assumed, and what could be otherwise
 };
 

@@ -50,7 +50,7 @@ private:
             case Kind::applied:  // perhaps a product that was written without a sign
                 return Bond::product;
             case Kind::power:
-                return math.args[0]->kind == Kind::applied ? Bond::product : Bond::power;
+                return math.args[0]->kind == Kind::applied && !math.args[0]->grouped ? Bond::product : Bond::power;
             default:
                 return Bond::atom;
         }
@@ -213,7 +213,7 @@ private:
             out() += ')';
             return;
         }
-        if (base.kind == Kind::applied)
+        if (base.kind == Kind::applied && !base.grouped)
             term(base);  // m (a + b)^2 is a product in which the parentheses are squared
         else
             inside(base, Bond::atom);

@@ -22,6 +22,7 @@ bool counts(const std::string& index) {
 }
 
 bool is_general(const Letter& letter, int dots, const Letters& letters, bool displayed) {
+    if (letters.is_authors(letter)) return false;
     if (const auto name = letters.name_of(letter))  // a charge q has no rate
         return !displayed && letter.base == "q" && dots > 0 && letters.is_of_scene(*name) && !letters.moves(*name);
     if (!displayed && letter.index.empty() && (letter.base == "Q" || letter.raised == "*")) return true;

@@ -207,6 +207,7 @@ std::optional<std::string> Letters::of_mechanics(const Letter& letter) const {
 
 std::optional<std::string> Letters::name_of(const Letter& letter, bool as_quantity) const {
     if (const auto found = bound_.find(letter); found != bound_.end()) return found->second;
+    if (own_.contains(letter)) return std::nullopt;
     if (as_quantity)
         if (const auto quantity = of_mechanics(letter)) return quantity;
     const auto exact = written_so_.find(letter);

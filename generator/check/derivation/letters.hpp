@@ -45,6 +45,9 @@ public:
     void release(const Letter& letter) { bound_.erase(letter); }
     /// From now on it is none of mechanics' own letters: T is a tension here.
     void leave_open(const Letter& letter) { open_.insert(letter); }
+    /// It is the author's own, whatever the scene or mechanics have of that name: only what he says of it counts.
+    void leave_to_author(const Letter& letter) { own_.insert(letter); }
+    bool is_authors(const Letter& letter) const { return own_.contains(letter); }
     /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be
     /// a quantity of mechanics (∂L/∂q'), even if the scene has a length of this name.
     std::optional<std::string> name_of(const Letter& letter, bool as_quantity = false) const;
@@ -68,7 +71,7 @@ private:
 
     std::map<Letter, std::string> bound_;
     std::map<Letter, std::string> written_so_;  ///< the letters of the scene's names
-    std::set<Letter> open_;
+    std::set<Letter> open_, own_;
     std::set<std::string> scene_names_, functions_, moving_, taken_;
     std::vector<std::string> coordinates_;
 };

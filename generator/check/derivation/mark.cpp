@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/choose_letters.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/derivation/readings.hpp"
 
 namespace alembert {
 
@@ -48,9 +49,11 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     for (const WrittenLetter& letter : system.scene().letters)
         letters.emplace(letter.written.text, letter.name.text);
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
-    Marker marker(system, result.written, chosen.letters);
+    const Readings readings(system, result.written);
+    Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));
     marker.run();
     marker.verify();
+    readings.withhold(marker.lines, chosen.letters, chosen.given);
     result.missing = marker.missing();
     result.complete = result.missing.empty();
     result.lines = std::move(marker.lines);

@@ -78,7 +78,10 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
 /// another one are open again then.
 void Marker::hear(const std::string& words) {
     if (std::none_of(words.begin(), words.end(),
-                     [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }))
+                     [](char c) {
+                         const auto byte = static_cast<unsigned char>(c);
+                         return byte >= 0x80 || std::isalpha(byte) != 0;
+                     }))
         return;
     std::string spoken;
     const auto look_for = [&](const std::string& name) {
@@ -112,7 +115,7 @@ void Marker::hear(const std::string& words) {
     speaks_of_period_ = says({"period", "Period", "周期"});
     speaks_of_roots_ = says({"with the roots", "其根"});
     speaks_of_rest_ = speaks_of_roots_ || says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止",
-                                                "平衡", "加速度为零"});
+                                                "平衡", "加速度为零", "Gleichgewicht", "Ruhelage"});
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }
@@ -213,7 +216,7 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
         if (line.status == LineStatus::right) line.status = LineStatus::definition;
         return true;
     }
-    if (introduces_symbols_) {
+    if (introduces_symbols_ || letters_.is_authors(lone.letter->letter)) {
         define(line, *lone.letter, rhs, lone.power);
         return true;
     }
@@ -270,6 +273,9 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
                  truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
+        const bool is_size = power == 1 && binding.text.starts_with("sqrt(");  // v = l θ' has a sign
+        if (is_size && rows.is_identity(rows.row(GiNaC::pow(truth, 2) - GiNaC::pow(value, 2))) == true)
+            return tell(value, true);
         if (binding.named && !named) named = truth;
     }
     return named && tell(*named, false);

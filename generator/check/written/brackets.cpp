@@ -94,6 +94,17 @@ std::vector<MathParser::Range> MathParser::argument_ranges(std::size_t begin, st
     return ranges;
 }
 
+namespace {
+
+MathPtr grouped(const MathPtr& inside) {
+    if (inside->kind != Math::Kind::applied) return inside;
+    auto result = std::make_shared<Math>(*inside);
+    result->grouped = true;
+    return result;
+}
+
+}  // namespace
+
 MathPtr MathParser::bracket() {
     const std::size_t begin = at_;
     const std::size_t close = closing(begin);
@@ -108,7 +119,7 @@ MathPtr MathParser::bracket() {
     if (is(Kind::index)) fail(at_, say("brackets with an index were found; expected a letter before an index"));
     if (tokens_[begin].text == "|")
         return node({.kind = Math::Kind::call, .text = "abs", .args = {list[0]}}, begin);
-    if (list.size() == 1) return list[0];
+    if (list.size() == 1) return grouped(list[0]);
     return node({.kind = Math::Kind::vector, .args = std::move(list)}, begin);
 }
 
@@ -153,7 +164,7 @@ MathPtr MathParser::group() {
     const MathPtr inside = within(begin + 1, close);
     at_ = close + 1;
     if (inside->kind == Math::Kind::letter) return letter(inside->letter, inside->dots, begin);
-    return inside;
+    return grouped(inside);
 }
 
 /// Column vectors and matrices.

@@ -102,6 +102,7 @@ void list_signs(CommandTable& table) {
     list_tokens(table, TokenKind::stray, "pm mp");
     list_tokens(table, TokenKind::text, "forall", "for all");
     list_tokens(table, TokenKind::semicolon, "colon");
+    list_tokens(table, TokenKind::row, "newline tabularnewline", "");
 }
 
 void list_dropped(CommandTable& table) {
@@ -112,7 +113,7 @@ void list_dropped(CommandTable& table) {
         "bigm Bigm biggm Biggm rm it sf tt normalfont small large Large footnotesize cancel bcancel xcancel "
         "qed Box square blacksquare pqty bqty Bqty pab bab mathit mathnormal mathsf symit ensuremath smash "
         "mathinner thinspace medspace "
-        "thickspace negthinspace negmedspace negthickspace space nobreakspace qedhere qed par newline "
+        "thickspace negthinspace negmedspace negthickspace space nobreakspace qedhere qed par "
         "nobreak protect mathsfit upright relax normalsize Aboxed",
         CommandEffect::nothing);
     list_commands(table,

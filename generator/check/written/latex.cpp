@@ -160,7 +160,7 @@ std::string rate_in_latex(const Math& math) {
 
 std::string power_in_latex(const Math& math) {
     const Math& base = *math.args[0];
-    std::string below = bracketed(base, 3);
+    std::string below = base.grouped ? "\\left(" + latex(base) + "\\right)" : bracketed(base, 3);
     // A letter's raised text or arguments stand where the exponent comes.
     if (base.kind == MathKind::letter && !base.letter.raised.empty()) below = "{" + below + "}";
     std::string above = latex(*math.args[1]);

@@ -60,7 +60,8 @@ struct Math {
     std::vector<MathPtr> args{};
     std::size_t offset = 0;
     std::size_t length = 0;
-    int levels = 1;  ///< of nodes in each other, itself counted; at most 300
+    bool grouped = false;  ///< `applied` in brackets of its own: of (s(a + b))^2 all is squared
+    int levels = 1;        ///< of nodes in each other, itself counted; at most 300
 };
 
 }  // namespace alembert

@@ -58,6 +58,28 @@ std::vector<char> holds_relation(const std::vector<WrittenToken>& tokens,
 
 }  // namespace
 
+/// {+ b}, \textcolor{red}{+ b}, \underbrace{+ b}_{words}: TeX sets a term of the sum.
+bool begins_term(const std::vector<WrittenToken>& tokens, const std::vector<std::size_t>& partner, std::size_t i) {
+    if (tokens[i].kind != RowKind::begin_group || partner[i] == no_partner || partner[i] < i + 3 || i == 0)
+        return false;
+    const RowKind first = tokens[i + 1].kind, before = tokens[i - 1].kind;
+    if (first != RowKind::plus && first != RowKind::minus) return false;
+    if (before == RowKind::command) return tokens[i - 1].text == "underbrace" || tokens[i - 1].text == "overbrace";
+    return before != RowKind::index && before != RowKind::power && before != RowKind::end_group;
+}
+
+/// \underbrace before the group, and the words below it.
+void drop_label(const std::vector<WrittenToken>& tokens, const std::vector<std::size_t>& partner, std::size_t i,
+                std::vector<char>& dropped) {
+    dropped[i - 1] = 1;
+    const std::size_t mark = partner[i] + 1;
+    if (mark + 1 >= tokens.size() ||
+        (tokens[mark].kind != RowKind::index && tokens[mark].kind != RowKind::power))
+        return;
+    const std::size_t last = partner[mark + 1] == no_partner ? mark + 1 : partner[mark + 1];
+    for (std::size_t k = mark; k <= last; ++k) dropped[k] = 1;
+}
+
 std::vector<WrittenToken> without_frames(std::vector<WrittenToken> tokens) {
     const auto keep_only = [&](const std::vector<char>& dropped) {
         std::vector<WrittenToken> kept;
@@ -79,6 +101,11 @@ std::vector<WrittenToken> without_frames(std::vector<WrittenToken> tokens) {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         const RowKind before = i == 0 ? RowKind::row : tokens[i - 1].kind;
         const bool has_partner = partner[i] != no_partner;
+        if (begins_term(tokens, partner, i)) {
+            dropped[i] = dropped[partner[i]] = 1;
+            if (before == RowKind::command) drop_label(tokens, partner, i, dropped);
+            continue;
+        }
         const RowKind after_empty = i + 2 < tokens.size() ? tokens[i + 2].kind : RowKind::end;
         if (tokens[i].kind == RowKind::begin_group && partner[i] == i + 1 && before != RowKind::index &&
             before != RowKind::power && before != RowKind::command && before != RowKind::end_group &&

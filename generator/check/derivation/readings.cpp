@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/readings.hpp"
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/derivation/claim_text.hpp"
+#include "check/derivation/marker.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Kind = Math::Kind;
+
+constexpr int most_tried = 6;
+
+const Letter* alone_in(const Math& side) {
+    if (side.kind == Kind::letter && side.dots == 0) return &side.letter;
+    const bool is_square =
+        side.kind == Kind::power && side.args[1]->kind == Kind::number && side.args[1]->text == "2";
+    return is_square ? alone_in(*side.args[0]) : nullptr;
+}
+
+bool speaks_of(const Math& math, const Letter& letter) {
+    std::map<Letter, int> all;
+    collect_letters(math, all);
+    return all.contains(letter);
+}
+
+/// The sides of a line: the k-th pair of its statement.
+std::pair<const Math*, const Math*> pair_of(const Written& written, const std::vector<MarkedLine>& lines,
+                                             std::size_t k) {
+    const std::vector<MathPtr>& sides = written.statements[lines[k].statement].sides;
+    std::size_t first = k;
+    while (first > 0 && lines[first - 1].statement == lines[k].statement) --first;
+    const std::size_t pair = k - first;
+    if (pair + 1 >= sides.size()) return {nullptr, nullptr};
+    return {sides[pair].get(), sides[pair + 1].get()};
+}
+
+bool is_any_energy(const Letter& letter) {
+    const auto quantity = quantity_of(letter);
+    return quantity && quantity != MechanicalQuantity::momentum && quantity != MechanicalQuantity::force;
+}
+
+bool has_motion(const Math& math, const Letters& letters) {
+    std::map<Letter, int> all;
+    collect_letters(math, all);
+    return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        const auto name = letters.name_of(item.first);
+        return !name || item.second > 0 || letters.moves(*name) || !letters.is_of_scene(*name);
+    });
+}
+
+bool counts_as_right(LineStatus status) {
+    return status == LineStatus::right || status == LineStatus::right_near ||
+           status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative;
+}
+
+std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
+    return std::count_if(lines.begin(), lines.end(),
+                         [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
+}
+
+bool speaks_of_angular_momentum(const std::string& words) {
+    for (const char* const phrase : {"ngular momentum", "oment of momentum", "角动量", "动量矩", "Drehimpuls"})
+        if (words.find(phrase) != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace
+
+Letters with_authors_letters(Letters letters, const Written& written) {
+    for (const WrittenStatement& statement : written.statements)
+        for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
+            for (const bool turned : {false, true}) {
+                const Math &side = *statement.sides[turned ? k + 1 : k],
+                           &value = *statement.sides[turned ? k : k + 1];
+                const Letter* const letter = alone_in(side);
+                if (letter == nullptr || speaks_of(value, *letter)) continue;
+                const bool is_general =
+                    letter->index.empty() && (letter->base == "u" || letter->base == "q" || letter->base == "Q");
+                std::map<Letter, int> all;
+                collect_letters(value, all);
+                const bool is_known = !all.empty() && std::all_of(all.begin(), all.end(), [&](const auto& item) {
+                    return letters.name_of(item.first).has_value();
+                });
+                const auto name = letters.name_of(*letter);
+                if (is_general && !name && is_known) letters.leave_to_author(*letter);
+                if (is_any_energy(*letter) && name && !letters.is_of_scene(*name) && is_known &&
+                    !has_motion(value, letters))
+                    letters.leave_to_author(*letter);  // no energy is a constant in parameters
+                if (letter->base == "L" && name && !letters.is_of_scene(*name) &&
+                    speaks_of_angular_momentum(statement.words))
+                    letters.leave_to_author(*letter);
+            }
+    return letters;
+}
+
+std::vector<MarkedLine> Readings::marked_with(const Letters& letters) const {
+    Marker marker(system_, written_, letters);
+    marker.run();
+    return std::move(marker.lines);
+}
+
+Readings::Uses Readings::uses(const std::vector<MarkedLine>& lines, std::size_t k, const Letter& letter) const {
+    Uses result;
+    for (std::size_t i = k + 1; i < lines.size(); ++i) {
+        const auto [left, right] = pair_of(written_, lines, i);
+        if (left == nullptr || (!speaks_of(*left, letter) && !speaks_of(*right, letter))) continue;
+        if (lines[i].statement == lines[k].statement && i == k + 1 && alone_in(*left) != nullptr &&
+            *alone_in(*left) == letter)
+            continue;  // x = a = b
+        ++result.all;
+        result.right += counts_as_right(lines[i].status) ? 1 : 0;
+    }
+    return result;
+}
+
+std::optional<Letter> Readings::perhaps_defined(const std::vector<MarkedLine>& lines, std::size_t k,
+                                                const Letters& letters, const std::set<Letter>& given) const {
+    if (lines[k].status != LineStatus::mistake) return std::nullopt;
+    const auto [left, right] = pair_of(written_, lines, k);
+    for (const auto& [side, value] : {std::pair(left, right), std::pair(right, left)}) {
+        const Letter* const letter = side == nullptr ? nullptr : alone_in(*side);
+        if (letter == nullptr || letters.is_authors(*letter) || given.contains(*letter) || speaks_of(*value, *letter))
+            continue;
+        const auto name = letters.name_of(*letter);
+        if (name && letters.is_of_scene(*name) && identifier_of(*letter) == *name) continue;
+        bool is_new = true;  // the first line that speaks of it
+        for (std::size_t i = 0; i < k; ++i) {
+            const auto [a, b] = pair_of(written_, lines, i);
+            if (a != nullptr && (speaks_of(*a, *letter) || speaks_of(*b, *letter))) is_new = false;
+        }
+        if (is_new) return *letter;
+    }
+    return std::nullopt;
+}
+
+Letters Readings::settle(Letters letters, const std::set<Letter>& given) const {
+    std::vector<MarkedLine> lines = marked_with(letters);
+    int tried = 0;
+    for (std::size_t k = 0; k < lines.size() && tried < most_tried; ++k) {
+        const std::optional<Letter> letter = perhaps_defined(lines, k, letters, given);
+        if (!letter) continue;
+        ++tried;
+        Letters other = letters;
+        other.leave_to_author(*letter);
+        std::vector<MarkedLine> otherwise = marked_with(other);
+        if (otherwise.size() != lines.size() || otherwise[k].status == LineStatus::mistake) continue;
+        const Uses guessed = uses(lines, k, *letter), own = uses(otherwise, k, *letter);
+        const bool is_authors = own.right > 0 && own.right >= guessed.right && mistakes(otherwise) < mistakes(lines);
+        if (!is_authors) continue;
+        letters = std::move(other);
+        lines = std::move(otherwise);
+    }
+    return letters;
+}
+
+void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
+                        const std::set<Letter>& given) const {
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const std::optional<Letter> letter = perhaps_defined(lines, k, letters, given);
+        if (!letter || is_any_energy(*letter) || !letter->index.empty() || uses(lines, k, *letter).all > 0) continue;
+        lines[k].status = LineStatus::undecided;
+        lines[k].checked = {};
+        lines[k].reason =
+            say("it is wrong of what {} usually is here; if {} is a letter of your own, the line defines it, and "
+                "no later "
+                "line tells",
+                identifier_of(*letter), identifier_of(*letter));
+    }
+}
+
+}  // namespace alembert
