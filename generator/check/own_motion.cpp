@@ -119,7 +119,9 @@ void OwnMotion::make() {
 /// The motion from an assembled start, put back onto the constraints where a state of it is kept.
 void OwnMotion::follow(Start start, const Program& constraints) {
     const Mechanism& m = claims_.mechanism();
-    const Program law = lower(m, e_, energy_of(m), {.admissible = [&start] { return start; }});
+    Energy no_energy;  // its derivatives would lengthen the table of the mechanism with each check
+    no_energy.z = m.z;
+    const Program law = lower(m, e_, no_energy, {.admissible = [&start] { return start; }});
     motion_.push_back(forced(law, start.state()));
     const int steps = static_cast<int>(
         std::min<std::size_t>(most_steps, most_work / (4 * static_cast<std::size_t>(law.size()) + 1)));

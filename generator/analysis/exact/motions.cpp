@@ -217,7 +217,9 @@ bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism&
             }
         }
         if (factors.empty() || (factors.size() < 2 && !is_repeated)) factors = {unknown.node};
-        has_factors = has_factors || factors.size() > 1 || is_repeated || !holds(program_, factors[0], unknown);
+        has_factors = has_factors || factors.size() > 1 || is_repeated;
+        is_lost_ = is_lost_ || !std::all_of(factors.begin(), factors.end(),
+                                            [&](int factor) { return holds(program_, factor, unknown); });
         std::vector<std::vector<int>> longer;
         for (const std::vector<int>& before : choices)
             for (const int factor : factors) {
@@ -231,9 +233,10 @@ bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism&
         if (step.second) add(*step.second);
         if (choices.size() > most_choices) return false;
     }
-    if (!has_factors) return true;
+    if (!has_factors && !is_lost_) return true;
     for (const std::vector<int>& choice : choices) {
         SolvingOrder other = solving_order(program_, choice);
+        if (!other.left.empty() && !is_lost_) continue;
         if (!other.left.empty() && !contradict(other)) return false;
         (other.left.empty() ? other_orders_ : contradicted_).push_back(std::move(other));
     }
@@ -320,7 +323,7 @@ Motions::Outcome Motions::solve_steps(ExactState& state, const OwnPoint* own, st
         forget();
         return Outcome::dependent_rows;
     }
-    const std::vector<SolvingStep>& list = steps(state.point.seed);
+    const std::vector<SolvingStep>& list = exact_steps(state.point.seed);
     if (step == list.size()) return Outcome::solved;
     const int most_draws = 8 * static_cast<int>(list.size()) + 8;
     const OwnRoot* const root = own == nullptr ? nullptr : &own->roots[step];

@@ -116,11 +116,13 @@ public:
 
     /// The steps in the order of solving.
     const std::vector<SolvingStep>& steps() const { return steps_; }
-    /// Those that this seed takes.
+    /// Those that this seed takes, in numbers.
     const std::vector<SolvingStep>& steps(std::uint64_t seed) const {
         const std::size_t choice = seed % (other_orders_.size() + 1);
         return choice == 0 ? steps_ : other_orders_[choice - 1].steps;
     }
+    /// The same in exact arithmetic, which takes another order only where a factor lacks its variable.
+    const std::vector<SolvingStep>& exact_steps(std::uint64_t seed) const { return is_lost_ ? steps(seed) : steps_; }
     /// At rest, orders whose conditions that are left contradict the others, but for some values of parameters
     /// that are zero or equal.
     const std::vector<SolvingOrder>& contradicted() const { return contradicted_; }
@@ -196,6 +198,7 @@ private:
     System system_;
     std::vector<SolvingStep> steps_;
     std::vector<SolvingOrder> other_orders_, contradicted_;  ///< at rest, of other factors
+    bool is_lost_ = false;  ///< whether a factor lacks the variable for which its equation is solved
     std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
     std::vector<std::size_t> open_unknowns_;
