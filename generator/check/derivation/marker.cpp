@@ -61,6 +61,7 @@ void Marker::run() {
         statement_ = &written_.statements[s];
         speaks_of_small_ = speaks_of_small_ || statement_->first_order;
         hear(statement_->words);
+        hear_conditions(statement_->words);
         if (statement_->sides.empty()) {
             MarkedLine line{.status = LineStatus::not_understood, .statement = s};
             line.offset = statement_->offset;
@@ -97,6 +98,8 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = LineStatus::undecided;
         line.reason = say("it could not be evaluated");
     }
+    weigh_condition(line);
+    if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
         take_in(s, k);
@@ -124,6 +127,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         return;
     }
     if (is_virtual_work(lhs)) return judge_work(line, rhs);
+    if (is_of_state(line, lhs, rhs)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
     if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;

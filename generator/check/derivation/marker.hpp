@@ -77,7 +77,7 @@ private:
     bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
-    bool is_assumption(MarkedLine& line, const Sides& sides) const;
+    bool is_assumption(MarkedLine& line, const Sides& sides);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
@@ -92,6 +92,10 @@ private:
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     std::vector<Binding> bindings(const Letter& letter) const;
     void hear(const std::string& words);
+    void hear_conditions(const std::string& words);
+    bool is_value_of_state(const Letter& letter) const;
+    bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
+    void weigh_condition(MarkedLine& line) const;
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter);
     std::optional<GiNaC::ex> force_along_speed(const Letter& letter) const;
@@ -136,6 +140,8 @@ private:
     std::optional<BaseState> near_;    ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;     ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;  ///< whether its ∂/∂ψ' have been those of the independent rates
+    int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
+    std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
 };
 

@@ -42,7 +42,7 @@ std::string without_dot(const std::string& index) {
 }
 
 bool is_word_for_constant(const Letter& letter) {
-    return letter.base == "const" || letter.base == "constant";
+    return letter.base == "const" || letter.base == "const." || letter.base == "constant";
 }
 
 }  // namespace
@@ -141,7 +141,13 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
-                if (of_motion && !is_constant(value)) continue;  // a force, which the equation itself determines
+                const bool is_explained = !statement.displayed && !is_accelerated(value) &&
+                                          (statement.words.find("where") != std::string::npos ||
+                                           statement.words.find("with") != std::string::npos ||
+                                           statement.words.find("and") != std::string::npos ||
+                                           statement.words.find("其中") != std::string::npos);
+                if (of_motion && !is_explained && !is_constant(value))
+                    continue;  // a force, which the equation itself determines
                 try {
                     MarkedLine there;
                     define(there, *lone.letter, value, lone.power);
@@ -238,7 +244,9 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
     if (!holds && !is_word_for_constant(letter.letter)) return false;
-    const std::string name = letters_.free_name(identifier_of(letter.letter));
+    std::string name = letters_.free_name(is_word_for_constant(letter.letter) ? "const" : identifier_of(letter.letter));
+    while (constants_.contains(name)) name = letters_.free_name(name + "_");  // each "const" is one of its own
+    if (is_word_for_constant(letter.letter)) constants_.insert(name);
     line.claim = text.text + " = " + name;
     notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
     notes_.back().left = text;

@@ -61,10 +61,15 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
 }
 
 /// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
-bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
+bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     const auto is_plain = [&](const Math& math) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
-        return inner.kind == Kind::number || (inner.kind == Kind::letter && inner.dots < 2);
+        std::map<Letter, int> all;
+        collect_letters(inner, all);
+        const bool is_constant = std::none_of(all.begin(), all.end(), [&](const auto& item) {
+            return letters_.moves(letters_.name_of(item.first).value_or(""));
+        });
+        return is_constant || (inner.kind == Kind::letter && inner.dots < 2);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
     const auto moves = [&](const ClaimText& side) {
@@ -72,6 +77,12 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
                            [&](const std::string& name) { return letters_.moves(name); });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
+    static const char* const conditions[] = {"t ", "or ", "hen ", "f ", "here ", "当", "在", "若", "设", "取"};
+    const std::string& words = statement_->words;
+    if (std::any_of(std::begin(conditions), std::end(conditions), [&](const char* word) {
+            return words.ends_with(word) || (words + " ").ends_with(word);
+        }))
+        under_condition_ = 2;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
     return true;

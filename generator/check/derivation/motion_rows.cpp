@@ -94,6 +94,17 @@ std::optional<bool> MotionRows::is_identity(const MotionRow& row) const {
     return follows(row, {});
 }
 
+bool MotionRows::is_multiple(const MotionRow& row, const MotionRow& of) const {
+    std::optional<Prime> ratio;
+    for (std::size_t s = 0; s < points_.size(); ++s) {
+        if (!row.at[s] || !of.at[s] || of.at[s]->back().is_zero()) continue;
+        const Prime here = row.at[s]->back() * of.at[s]->back().inverse();
+        if (ratio && *ratio != here) return false;
+        ratio = here;
+    }
+    return ratio.has_value();
+}
+
 bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow*>& of, bool bound) const {
     if (!row.linear || !row.is_known()) return false;
     for (const MotionRow* other : of)
@@ -104,6 +115,8 @@ bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow
             continue;
         std::vector<std::vector<Prime>> rows = matrix(s, of, bound);
         const int before = rank(rows);
+        if (!of.empty() && before > rank_of_slopes(rows))  // from a contradiction nothing follows but itself
+            return of.size() == 1 && is_multiple(row, *of[0]);
         rows.push_back(*row.at[s]);
         if (rank(rows) > before) return false;
         seen = true;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Formulas that state one moment, a condition or a number of an equation, and so nothing of all motions: theta(0) =
+// 0.2, theta = theta_0, "at theta = pi/2 we have", (4) = (2) cos(theta) + (3) sin(theta).
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/language/say.hpp"
+
+namespace alembert {
+
+using Kind = Math::Kind;
+
+namespace {
+
+/// (4) = (2)cos θ + (3)sin θ: numbers of equations in parentheses.
+bool speaks_of_numbered_equations(const std::string& source) {
+    int numbered = 0;
+    for (std::size_t at = source.find('('); at != std::string::npos; at = source.find('(', at + 1)) {
+        std::size_t end = at + 1;
+        while (end < source.size() && std::isdigit(static_cast<unsigned char>(source[end])) != 0) ++end;
+        const bool follows_letter = at > 0 && std::isalpha(static_cast<unsigned char>(source[at - 1])) != 0;
+        if (end > at + 1 && end < source.size() && source[end] == ')' && !follows_letter) ++numbered;
+    }
+    return numbered > 1 && source.find('(') == source.find_first_not_of(" {\\quad");
+}
+
+bool has_any(const std::string& words, std::initializer_list<const char*> list) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const char* part) { return words.find(part) != std::string::npos; });
+}
+
+bool ends_sentence(const std::string& words) {
+    return has_any(words, {". ", "。", "; ", "；"}) || words.ends_with('.');
+}
+
+}  // namespace
+
+/// "At", "for", "steady motion": what is said then holds under a condition.
+void Marker::hear_conditions(const std::string& words) {
+    constexpr int lines_of_condition = 2;
+    if (under_condition_ > 0) --under_condition_;
+    if (ends_sentence(words)) under_condition_ = 0;
+    const bool is_steady = has_any(words, {"teady", "tationary motion", "规则进动", "稳态", "定常", "匀速转动时"});
+    if (is_steady) under_condition_ = lines_of_condition;
+}
+
+/// θ₀ where θ is a coordinate and the scene has no θ₀.
+bool Marker::is_value_of_state(const Letter& letter) const {
+    if (letters_.name_of(letter) || letter.index.empty()) return false;
+    static const std::set<std::string> indices{"0", "eq", "e", "s", "st", "max", "min", "i", "f", "(0)", "star"};
+    Letter plain = letter;
+    plain.index.clear();
+    const auto name = letters_.name_of(plain);
+    return indices.contains(letter.index) && name && letters_.is_of_scene(*name) && letters_.moves(*name);
+}
+
+/// Whether the line states one moment or a condition; then it is told so.
+bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const auto tell = [&](std::string reason) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = std::move(reason);
+        return true;
+    };
+    if (speaks_of_numbered_equations(line.source)) return tell(say("it speaks of equations by their numbers"));
+    for (const Math* side : {&lhs, &rhs})
+        if (side->kind == Kind::applied && side->args.size() == 1 && side->args[0]->kind == Kind::number) {
+            const auto name = letters_.name_of(side->letter);
+            if (name && letters_.is_of_scene(*name) && letters_.moves(*name))
+                return tell(say("a value at one moment; lines are judged for all motions"));
+        }
+    std::map<Letter, int> all;
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    const auto state = std::find_if(all.begin(), all.end(), [&](const auto& item) {
+        return is_value_of_state(item.first);
+    });
+    if (state != all.end() && !letters_.is_authors(state->first))
+        return tell(say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
+                        identifier_of(state->first)));
+    const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
+    const auto name = lhs.kind == Kind::letter ? letters_.name_of(lhs.letter) : std::nullopt;
+    if (statement_->displayed || !is_zero(rhs) || !name) return false;
+    if (*name == letters_.name_of(MechanicalQuantity::potential))
+        return tell(say("the zero of the potential, which is free"));
+    if (speaks_of_rest_ && lhs.dots > 0 && letters_.moves(*name)) return tell(say("a state of rest"));
+    return false;
+}
+
+/// What is a mistake of all motions may hold under the condition that the words state.
+void Marker::weigh_condition(MarkedLine& line) const {
+    if (under_condition_ == 0 || line.status != LineStatus::mistake) return;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("the words state a condition for it; lines are judged for all motions");
+    line.claim.clear();
+}
+
+}  // namespace alembert
