@@ -5,6 +5,7 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/choose_letters.hpp"
+#include "check/derivation/glued.hpp"
 #include "check/derivation/marker.hpp"
 #include "check/derivation/readings.hpp"
 
@@ -48,6 +49,7 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     std::map<std::string, std::string> letters = options.letters;
     for (const WrittenLetter& letter : system.scene().letters)
         letters.emplace(letter.written.text, letter.name.text);
+    result.written = with_products(std::move(result.written), Letters(system.scene()));
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     const Readings readings(system, result.written);
     Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));
