@@ -122,7 +122,9 @@ public:
         return choice == 0 ? steps_ : other_orders_[choice - 1].steps;
     }
     /// The same in exact arithmetic, which takes another order only where a factor lacks its variable.
-    const std::vector<SolvingStep>& exact_steps(std::uint64_t seed) const { return is_lost_ ? steps(seed) : steps_; }
+    const std::vector<SolvingStep>& exact_steps(std::uint64_t seed) const {
+        return is_lost_ ? steps(seed) : steps_;
+    }
     /// At rest, orders whose conditions that are left contradict the others, but for some values of parameters
     /// that are zero or equal.
     const std::vector<SolvingOrder>& contradicted() const { return contradicted_; }

@@ -70,8 +70,8 @@ private:
         return joined(product, std::move(factors));
     }
 
-    /// The factors of a letter or an applied one; itself if it is no word of several. `next`: what a function at the
-    /// end of the word is taken of.
+    /// The factors of a letter or an applied one; itself if it is no word of several. `next`: what a function at
+    /// the end of the word is taken of.
     std::vector<MathPtr> factors_of(const MathPtr& math, const MathPtr& next) const {
         if ((math->kind != Kind::letter && math->kind != Kind::applied) || math->letter.base.size() < 2 ||
             letters_.name_of(math->letter) || named_.contains(math->letter))

@@ -147,6 +147,7 @@ Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
 
 ClaimWriting Marker::as_written() const {
     return {.letters = letters_,
+            .steps = &held_,
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds};
@@ -216,6 +217,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
+    if (is_of_own_gauge(line, sides)) return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_equilibrium(line, sides) ||
         is_given_value(line, sides) || is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
         holds_up_to(line, sides, row.residual) || holds_at_rest(line, sides) ||

@@ -85,11 +85,14 @@ private:
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
+    bool is_of_own_gauge(MarkedLine& line, const Sides& sides);
 
     bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text);
     bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    void hold_momenta(const std::string& name, const ClaimText& text, const ClaimText& own,
+                      std::optional<std::size_t> wrong);
     std::vector<Binding> bindings(const Letter& letter) const;
     void hear(const std::string& words);
     void hear_conditions(const std::string& words);
@@ -118,6 +121,7 @@ private:
     bool repeats_law(const Sides& sides) const;
     bool speaks_of_quantity(const LineNotes& notes) const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
+    void name_held(MarkedLine& line) const;
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);
 
@@ -140,7 +144,10 @@ private:
     std::optional<BaseState> near_;    ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;     ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;  ///< whether its ∂/∂ψ' have been those of the independent rates
+    bool has_own_gauge_ = false;       ///< whether its L differs from the scene's by a total derivative
     int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
+    std::set<std::string> kept_;       ///< names of constants of the motion that are momenta, or written as such
+    std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
 };

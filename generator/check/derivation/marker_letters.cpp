@@ -13,6 +13,7 @@
 #include "check/derivation/bindings.hpp"
 #include "check/derivation/parts.hpp"
 #include "check/total_derivative.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 
@@ -29,6 +30,11 @@ struct Lone {
 
 Lone lone_letter(const Math& side) {
     if (side.kind == Kind::letter && side.dots == 0) return {&side, 1};
+    const bool is_function =
+        side.kind == Kind::applied && side.letter.base.size() == 1 && !side.letter.index.empty();
+    if (is_function && std::all_of(side.args.begin(), side.args.end(),
+                                   [](const MathPtr& arg) { return arg->kind == Kind::letter; }))
+        return {&side, 1};  // U_eff(θ)
     const bool is_power = side.kind == Kind::power && side.args[0]->kind == Kind::letter &&
                           side.args[0]->dots == 0 && side.args[1]->kind == Kind::number &&
                           side.args[1]->text == "2";
@@ -77,11 +83,10 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
 /// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for
 /// another one are open again then.
 void Marker::hear(const std::string& words) {
-    if (std::none_of(words.begin(), words.end(),
-                     [](char c) {
-                         const auto byte = static_cast<unsigned char>(c);
-                         return byte >= 0x80 || std::isalpha(byte) != 0;
-                     }))
+    if (std::none_of(words.begin(), words.end(), [](char c) {
+            const auto byte = static_cast<unsigned char>(c);
+            return byte >= 0x80 || std::isalpha(byte) != 0;
+        }))
         return;
     std::string spoken;
     const auto look_for = [&](const std::string& name) {
@@ -106,9 +111,13 @@ void Marker::hear(const std::string& words) {
         roaming_.clear();
     }
     spoken_ = spoken;
+    std::string lower = words;
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
     const auto says = [&](std::initializer_list<const char*> list) {
-        return std::any_of(list.begin(), list.end(),
-                           [&](const char* part) { return words.find(part) != std::string::npos; });
+        return std::any_of(list.begin(), list.end(), [&](const char* part) {
+            return words.find(part) != std::string::npos || lower.find(part) != std::string::npos;
+        });
     };
     at_rest_of_rates_ = says({"q'' = 0"});
     speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
@@ -244,14 +253,15 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
     if (!holds && !is_word_for_constant(letter.letter)) return false;
-    std::string name = letters_.free_name(is_word_for_constant(letter.letter) ? "const" : identifier_of(letter.letter));
+    std::string name =
+        letters_.free_name(is_word_for_constant(letter.letter) ? "const" : identifier_of(letter.letter));
     while (constants_.contains(name)) name = letters_.free_name(name + "_");  // each "const" is one of its own
     if (is_word_for_constant(letter.letter)) constants_.insert(name);
     line.claim = text.text + " = " + name;
     notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
     notes_.back().left = text;
     line.status = holds ? LineStatus::right : LineStatus::mistake;
-    if (holds && !is_word_for_constant(letter.letter)) bind(letter.letter, value);
+    if (holds && !is_word_for_constant(letter.letter)) kept_.insert(bind(letter.letter, value));
     return true;
 }
 
@@ -337,6 +347,8 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
         if (!system_.rows().is_identity(system_.rows().row(residual(2) - none - 2 * slope)).value_or(false))
             return std::nullopt;
         if (m.z->name(slope).is_zero() || m.z->depends(slope, m.qddot)) return std::nullopt;
+        const ex plain = m.z->expand(slope);  // pi - theta of theta = pi - alpha, without a quotient
+        if (GiNaC::is_a<GiNaC::numeric>(plain)) return m.z->name((m.z->expand(none) / -plain).expand());
         return m.z->name(-none / slope);
     };
     const auto truth = solved([&](const ex& value) {
@@ -368,6 +380,44 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     own_.state(name, stated, wrong);
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
+    if (power == 1) hold_momenta(name, text, own, wrong);
+}
+
+/// U_eff(θ) = V + J²/(2 m l² sin²θ): ∂U/∂θ is taken with J held, ∂H/∂p with q held, of what the author has
+/// written.
+void Marker::hold_momenta(const std::string& name, const ClaimText& text, const ClaimText& own,
+                          std::optional<std::size_t> wrong) {
+    const Mechanism& m = system_.mechanism();
+    std::map<std::string, ex> letters;
+    GiNaC::exmap truths;
+    std::vector<GiNaC::symbol> by = m.q;
+    by.insert(by.end(), m.qdot.begin(), m.qdot.end());
+    std::vector<std::string> names;
+    for (const GiNaC::symbol& coordinate : by) names.push_back(coordinate.get_name());
+    for (const std::string& held : text.names) {
+        if (!known_.contains(held) || (!held.starts_with("p_") && !kept_.contains(held))) continue;
+        const GiNaC::symbol letter = system_.held(held);
+        letters[held] = letter;
+        truths[letter] = known_.at(held);
+        by.push_back(letter);
+        names.push_back(held);
+    }
+    if (letters.empty()) return;
+    for (const auto& [held, letter] : letters) truth_.know(held, letter);
+    const ex value = truth_.value(text.text);
+    for (const auto& [held, letter] : letters) truth_.know(held, known_.at(held));
+    const auto slopes_of = [&](const ex& e) { return substitute(*m.z, m.z->pull_back({{e, 1}}, by), truths); };
+    const std::vector<ex> slopes = slopes_of(value), own_slopes = slopes_of(own_.value_with(own.text, letters));
+    for (std::size_t k = 0; k < by.size(); ++k) {
+        const std::string key = fmt::format("diff({},{})", name, names[k]);
+        own_.state_step(key, own_slopes[k], wrong);
+        if (known_.contains(name) && quantity_of({.base = name})) continue;  // H itself is what it is
+        const std::string step = letters_.free_name(fmt::format("held_{}", held_.size() + 1));
+        held_[key] = step;
+        known_[step] = m.z->name(slopes[k]);
+        truth_.know(step, known_[step]);
+        own_.state(step, known_[step], {});
+    }
 }
 
 }  // namespace alembert

@@ -66,8 +66,9 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
         std::map<Letter, int> all;
         collect_letters(inner, all);
-        const bool is_constant = std::none_of(all.begin(), all.end(), [&](const auto& item) {
-            return letters_.moves(letters_.name_of(item.first).value_or(""));
+        const bool is_constant = std::all_of(all.begin(), all.end(), [&](const auto& item) {
+            const std::string name = letters_.name_of(item.first).value_or("");
+            return name == "pi" || (letters_.is_of_scene(name) && !letters_.moves(name));
         });
         return is_constant || (inner.kind == Kind::letter && inner.dots < 2);
     };
@@ -79,9 +80,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     if (!moves(sides.left) && !moves(sides.right)) return false;
     static const char* const conditions[] = {"t ", "or ", "hen ", "f ", "here ", "当", "在", "若", "设", "取"};
     const std::string& words = statement_->words;
-    if (std::any_of(std::begin(conditions), std::end(conditions), [&](const char* word) {
-            return words.ends_with(word) || (words + " ").ends_with(word);
-        }))
+    if (std::any_of(std::begin(conditions), std::end(conditions),
+                    [&](const char* word) { return words.ends_with(word) || (words + " ").ends_with(word); }))
         under_condition_ = 2;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
@@ -154,6 +154,18 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
     for (const ex& row : euler_operator(residual, m))
         if (rows.is_identity(rows.row(row)) != true) return false;
     line.status = LineStatus::right_up_to_derivative;
+    has_own_gauge_ = true;
+    return true;
+}
+
+/// A momentum of the Lagrangian that the derivation has stated, which is right up to a total derivative.
+bool Marker::is_of_own_gauge(MarkedLine& line, const Sides& sides) {
+    if (!has_own_gauge_ || own_.wrong_in(sides.own_names())) return false;
+    MotionRows& rows = system_.rows();
+    if (rows.is_identity(rows.row(own_residual(sides))) != true) return false;
+    line.status = LineStatus::right;
+    line.reason = say("with the Lagrangian that stands above");
+    notes_.back().claim = {};
     return true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Formulas that state one moment, a condition or a number of an equation, and so nothing of all motions: theta(0) =
-// 0.2, theta = theta_0, "at theta = pi/2 we have", (4) = (2) cos(theta) + (3) sin(theta).
+// Formulas that state one moment, a condition or a number of an equation, and so nothing of all motions: theta(0)
+// = 0.2, theta = theta_0, "at theta = pi/2 we have", (4) = (2) cos(theta) + (3) sin(theta).
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
@@ -63,7 +63,8 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         line.reason = std::move(reason);
         return true;
     };
-    if (speaks_of_numbered_equations(line.source)) return tell(say("it speaks of equations by their numbers"));
+    if (speaks_of_numbered_equations(written_.text.substr(statement_->offset, statement_->length)))
+        return tell(say("it speaks of equations by their numbers"));
     for (const Math* side : {&lhs, &rhs})
         if (side->kind == Kind::applied && side->args.size() == 1 && side->args[0]->kind == Kind::number) {
             const auto name = letters_.name_of(side->letter);
@@ -73,12 +74,12 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
-    const auto state = std::find_if(all.begin(), all.end(), [&](const auto& item) {
-        return is_value_of_state(item.first);
-    });
+    const auto state =
+        std::find_if(all.begin(), all.end(), [&](const auto& item) { return is_value_of_state(item.first); });
     if (state != all.end() && !letters_.is_authors(state->first))
-        return tell(say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
-                        identifier_of(state->first)));
+        return tell(
+            say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
+                identifier_of(state->first)));
     const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
     const auto name = lhs.kind == Kind::letter ? letters_.name_of(lhs.letter) : std::nullopt;
     if (statement_->displayed || !is_zero(rhs) || !name) return false;

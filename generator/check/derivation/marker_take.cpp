@@ -71,15 +71,18 @@ void Marker::take_in_as(const Math& what, const Math& value) {
         const Mechanism& m = system_.mechanism();
         if (!is_false(status) || m.z->depends(truth, m.qddot) != m.z->depends(stated, m.qddot)) return;
     }
+    if (is_step && !differs && own_.is_wrong_step(name.text)) return;  // θ' = ∂H/∂p is the law; his H is wrong
     std::optional<std::size_t> wrong;
     if (differs) {
         wrong = is_false(status) ? std::optional(lines.size() - 1) : own_.wrong_in(text.names);
         if (!wrong) wrong = own_.wrong_in({name.text});
         if (!wrong) wrong = lines.size() - 1;
     }
-    if (is_name)
+    if (is_name) {
         own_.state(name.text, stated, wrong);
-    else
+        if (what.kind == Kind::letter && what.letter.base == "H")
+            hold_momenta(name.text, claim_text(value, as_written()), text, wrong);
+    } else
         own_.state_step(name.text, stated, wrong);
     if (what.kind == Kind::rate && what.dots == 1)
         own_.state_rate(own_.value(claim_text(*what.args[0], {.letters = letters_, .steps = &own_.steps()}).text),

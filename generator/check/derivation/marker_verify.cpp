@@ -3,6 +3,7 @@
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/language/say.hpp"
 
@@ -71,6 +72,8 @@ void Marker::verify() {
         if (!own[0].likely || own[0].likely->kind == "unknown") continue;
         adopt(line, notes, std::move(own[0]));
     }
+    if (held_.empty()) return;
+    for (MarkedLine& line : lines) name_held(line);
 }
 
 bool Marker::speaks_of_quantity(const LineNotes& notes) const {
@@ -114,6 +117,29 @@ void Marker::adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict) {
     }
     if (line.right.empty()) line.right = line.checked.nearest;
     locate_term(line, notes);
+}
+
+/// The words of a verdict with ∂U/∂θ as it was written, where a name has stood for its value.
+void Marker::name_held(MarkedLine& line) const {
+    const auto rename = [&](std::string& text) {
+        for (const auto& [written, name] : held_)
+            for (std::size_t at = text.find(name); at != std::string::npos;
+                 at = text.find(name, at + written.size())) {
+                const std::size_t end = at + name.size();
+                if (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) {
+                    ++at;
+                    continue;
+                }
+                text.replace(at, name.size(), written);
+            }
+    };
+    for (std::string* text : {&line.claim, &line.term, &line.right, &line.reason, &line.checked.difference,
+                              &line.checked.nearest, &line.checked.reason})
+        rename(*text);
+    if (!line.checked.likely) return;
+    Slip& slip = *line.checked.likely;
+    for (std::string* text : {&slip.term, &slip.repair, &slip.should_be, &slip.written, &slip.meant})
+        rename(*text);
 }
 
 void Marker::locate_term(MarkedLine& line, const LineNotes& notes) const {

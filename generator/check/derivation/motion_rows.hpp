@@ -41,7 +41,8 @@ public:
     /// Nothing if it could not be evaluated anywhere.
     std::optional<bool> holds(const MotionRow& row) const;
     std::optional<bool> is_identity(const MotionRow& row) const;
-    /// False too where one of them is not linear, and where they contradict each other. `bound`: whether the constraints of the system count, too.
+    /// False too where one of them is not linear, and where they contradict each other. `bound`: whether the
+    /// constraints of the system count, too.
     bool follows(const MotionRow& row, const std::vector<const MotionRow*>& of, bool bound = true) const;
     /// Whether it is a number times the other one.
     bool is_multiple(const MotionRow& row, const MotionRow& of) const;

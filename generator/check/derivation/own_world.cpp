@@ -32,6 +32,21 @@ void OwnWorld::know(const std::string& name, const Stated& value) {
     world_.know(name, value.value);
 }
 
+ex OwnWorld::value_with(const std::string& text, const std::map<std::string, ex>& given) {
+    for (const auto& [name, value] : given) world_.know(name, value);
+    const auto restore = [&] {
+        for (const auto& [name, value] : given) world_.know(name, known_.at(name).value);
+    };
+    try {
+        const ex result = world_.value(text);
+        restore();
+        return result;
+    } catch (...) {
+        restore();
+        throw;
+    }
+}
+
 OwnWorld::Stated OwnWorld::stated_or(const std::string& name, const Stated& otherwise) const {
     const auto found = stated_.find(name);
     return found == stated_.end() ? otherwise : found->second;

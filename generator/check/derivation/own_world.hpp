@@ -28,6 +28,8 @@ public:
 
     /// Throws NoMeaning.
     GiNaC::ex value(const std::string& text) { return world_.value(text); }
+    /// The same where some names have these values.
+    GiNaC::ex value_with(const std::string& text, const std::map<std::string, GiNaC::ex>& given);
     /// The name has this value from now on. `wrong`: the line from which a wrong value comes.
     void state(const std::string& name, const GiNaC::ex& value, std::optional<std::size_t> wrong);
     /// The name is a part of the sum `whole`, "T_1" of "T": what it is said to be counts in the whole, too.
@@ -37,6 +39,11 @@ public:
     /// The time derivative of a value, as the derivation has written it out.
     void state_rate(const GiNaC::ex& of, const GiNaC::ex& value, std::optional<std::size_t> wrong);
     const std::map<std::string, std::string>& steps() const { return steps_; }
+    /// Whether its value comes from a wrong line.
+    bool is_wrong_step(const std::string& text) const {
+        const auto found = step(text);
+        return found && found->wrong;
+    }
 
     /// The latest wrong line from which the value of one of these names comes.
     std::optional<std::size_t> wrong_in(const std::set<std::string>& names) const;

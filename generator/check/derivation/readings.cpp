@@ -30,7 +30,7 @@ bool speaks_of(const Math& math, const Letter& letter) {
 
 /// The sides of a line: the k-th pair of its statement.
 std::pair<const Math*, const Math*> pair_of(const Written& written, const std::vector<MarkedLine>& lines,
-                                             std::size_t k) {
+                                            std::size_t k) {
     const std::vector<MathPtr>& sides = written.statements[lines[k].statement].sides;
     std::size_t first = k;
     while (first > 0 && lines[first - 1].statement == lines[k].statement) --first;
@@ -91,7 +91,8 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                 if (is_any_energy(*letter) && name && !letters.is_of_scene(*name) && is_known &&
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
-                if (letter->base == "L" && name && !letters.is_of_scene(*name) &&
+                const bool is_scenes = name && letters.is_of_scene(*name) && identifier_of(*letter) == *name;
+                if (!is_scenes && has_motion(value, letters) && is_known &&
                     speaks_of_angular_momentum(statement.words))
                     letters.leave_to_author(*letter);
             }
@@ -124,7 +125,8 @@ std::optional<Letter> Readings::perhaps_defined(const std::vector<MarkedLine>& l
     const auto [left, right] = pair_of(written_, lines, k);
     for (const auto& [side, value] : {std::pair(left, right), std::pair(right, left)}) {
         const Letter* const letter = side == nullptr ? nullptr : alone_in(*side);
-        if (letter == nullptr || letters.is_authors(*letter) || given.contains(*letter) || speaks_of(*value, *letter))
+        if (letter == nullptr || letter->base.starts_with("const") || is_any_energy(*letter) ||
+            letters.is_authors(*letter) || given.contains(*letter) || speaks_of(*value, *letter))
             continue;
         const auto name = letters.name_of(*letter);
         if (name && letters.is_of_scene(*name) && identifier_of(*letter) == *name) continue;
@@ -150,7 +152,8 @@ Letters Readings::settle(Letters letters, const std::set<Letter>& given) const {
         std::vector<MarkedLine> otherwise = marked_with(other);
         if (otherwise.size() != lines.size() || otherwise[k].status == LineStatus::mistake) continue;
         const Uses guessed = uses(lines, k, *letter), own = uses(otherwise, k, *letter);
-        const bool is_authors = own.right > 0 && own.right >= guessed.right && mistakes(otherwise) < mistakes(lines);
+        const bool is_authors =
+            own.right > 0 && own.right >= guessed.right && mistakes(otherwise) < mistakes(lines);
         if (!is_authors) continue;
         letters = std::move(other);
         lines = std::move(otherwise);
@@ -162,7 +165,7 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
                         const std::set<Letter>& given) const {
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const std::optional<Letter> letter = perhaps_defined(lines, k, letters, given);
-        if (!letter || is_any_energy(*letter) || !letter->index.empty() || uses(lines, k, *letter).all > 0) continue;
+        if (!letter || !letter->index.empty() || uses(lines, k, *letter).all > 0) continue;
         lines[k].status = LineStatus::undecided;
         lines[k].checked = {};
         lines[k].reason =

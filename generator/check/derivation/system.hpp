@@ -39,6 +39,12 @@ public:
     const Equations& equations() const { return e_; }
     const std::shared_ptr<RootSheets>& sheets() const { return derived_.sheets; }
     MotionRows& rows() { return *rows_; }
+    /// A symbol in place of a value of this name, which is held while something is differentiated.
+    GiNaC::symbol held(const std::string& name) {
+        const auto [place, is_new] = held_.try_emplace(name);
+        if (is_new) place->second = m_.symbols->declare(name, SymbolInfo::Kind::other);
+        return place->second;
+    }
 
     /// Generalized forces: of the loads that have no potential, or of all.
     std::vector<GiNaC::ex> forces(bool with_potential) const;
@@ -75,6 +81,7 @@ private:
     Equations e_;
     std::unique_ptr<Claims> claims_;
     std::unique_ptr<MotionRows> rows_;
+    std::map<std::string, GiNaC::symbol> held_;
 };
 
 }  // namespace alembert

@@ -73,8 +73,7 @@ void drop_label(const std::vector<WrittenToken>& tokens, const std::vector<std::
                 std::vector<char>& dropped) {
     dropped[i - 1] = 1;
     const std::size_t mark = partner[i] + 1;
-    if (mark + 1 >= tokens.size() ||
-        (tokens[mark].kind != RowKind::index && tokens[mark].kind != RowKind::power))
+    if (mark + 1 >= tokens.size() || (tokens[mark].kind != RowKind::index && tokens[mark].kind != RowKind::power))
         return;
     const std::size_t last = partner[mark + 1] == no_partner ? mark + 1 : partner[mark + 1];
     for (std::size_t k = mark; k <= last; ++k) dropped[k] = 1;

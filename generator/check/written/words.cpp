@@ -59,7 +59,9 @@ bool speaks_of_first_order(std::string_view words) {
         "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
         "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
         "near equilibrium|near the equilibrium|about the equilibrium|higher order|higher-order|"
-        "second order terms|quadratic terms|小角*|微小*|微振动*|微幅*|很小*|略去高阶*|高阶小量*|一次近似*|小振动*|小摆*|线性化*|小幅*|一阶近似*|kleine winkel*|"
+        "second order terms|quadratic "
+        "terms|小角*|微小*|微振动*|微幅*|很小*|略去高阶*|高阶小量*|一次近似*|小振动*|小摆*|线性化*|小幅*|一阶近似*"
+        "|kleine winkel*|"
         "kleine auslenkung*|kleine schwingung*");
 }
 
