@@ -58,8 +58,9 @@ int exit_code(const Checked& checked, bool must_be_complete) {
 int exit_code(const Marked& marked, bool must_be_complete) {
     if (marked.first_mistake) return 1;
     const bool open = count_of(marked, LineStatus::undecided) + count_of(marked, LineStatus::not_understood) +
-                          count_of(marked, LineStatus::unfounded) >
-                      0;
+                              count_of(marked, LineStatus::unfounded) >
+                          0 ||
+                      count_judged(marked) == 0;
     return open || (must_be_complete && !marked.complete) ? 2 : 0;
 }
 

@@ -104,6 +104,7 @@ class Marked(Result):
     file: str
     lines: list[_Line]
     first_mistake: int | None
+    judged: int
     missing: list[str]
     complete: bool
     letters: dict[str, str]

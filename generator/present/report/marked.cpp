@@ -175,6 +175,11 @@ std::string words_of_status(const Marked& marked, const MarkedLine& line) {
     return {};
 }
 
+std::size_t count_judged(const Marked& marked) {
+    return marked.lines.size() - count_of(marked, LineStatus::undecided) -
+           count_of(marked, LineStatus::not_understood) - count_of(marked, LineStatus::not_about_scene);
+}
+
 std::string summary_of(const Marked& marked) {
     const std::size_t right = count_right(marked), wrong = count_of(marked, LineStatus::mistake),
                       follow = count_of(marked, LineStatus::follows);
@@ -185,13 +190,13 @@ std::string summary_of(const Marked& marked) {
                    ? say("First mistake: line {}, {}.", first.line, words_of(*first.checked.likely))
                    : say("First mistake: line {}.", first.line);
     } else {
-        text = say("No mistake was found.");
+        text = count_judged(marked) == 0 ? say("Nothing of this could be judged.") : say("No mistake was found.");
     }
     text += say(" Right: {}, mistakes: {}, following from them: {}.", right, wrong, follow);
     const std::size_t open =
         count_of(marked, LineStatus::undecided) + count_of(marked, LineStatus::not_understood);
     if (open > 0) text += say(" Not judged: {}.", open);
-    return text;
+    return say("{} of {} lines were judged.", count_judged(marked), marked.lines.size()) + " " + text;
 }
 
 std::string words_of_missing(const Marked& marked) {
@@ -208,6 +213,7 @@ Json as_json(const Marked& marked) {
     json["lines"] = Json::array();
     for (const MarkedLine& line : marked.lines) json["lines"].push_back(json_of(line));
     json["first_mistake"] = or_null(marked.first_mistake);
+    json["judged"] = count_judged(marked);
     json["missing"] = marked.missing;
     json["complete"] = marked.complete;
     json["letters"] = Json::object();

@@ -25,6 +25,8 @@ std::string words_of_missing(const Marked& marked);
 
 /// How often a status occurs; all that count as right together are `count_right`.
 std::size_t count_of(const Marked& marked, LineStatus status);
+/// The lines with a verdict: all but those that were not understood, decided, or about the scene.
+std::size_t count_judged(const Marked& marked);
 std::size_t count_right(const Marked& marked);
 
 /// The kind of the slip: "sign"; "unknown" if there is no better word.
