@@ -20,6 +20,7 @@ namespace alembert {
 struct Binding {
     std::string text;       ///< in the language of claims
     bool named = false;     ///< whether the index names the point or body, or there is only one
+    bool spoken = false;    ///< whether the words before it speak of its body
     bool reversed = false;  ///< whether the axis points the other way: y downwards for y upwards
 };
 

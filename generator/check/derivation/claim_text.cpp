@@ -178,6 +178,9 @@ private:
             return arguments(known, math);
         }
         const bool of_scene = how_.letters.is_of_scene(known);
+        if (math.dots > 0 && !of_scene && math.args.size() == 1 && math.args[0]->kind == Kind::letter &&
+            math.args[0]->dots == 0 && math.args[0]->letter.base != "t")
+            return slope_of_function(math);  // U'(θ) is dU/dθ
         const bool is_state = std::all_of(math.args.begin(), math.args.end(), [&](const MathPtr& arg) {
             if (arg->kind != Kind::letter) return false;
             const auto name = how_.letters.name_of(arg->letter);
@@ -187,6 +190,16 @@ private:
         letter(math, false);
         out() += '*';
         inside(*math.args[0], Bond::atom);
+    }
+
+    void slope_of_function(const Math& math) {
+        Math of = math, slope{.kind = Kind::partial};
+        of.kind = Kind::letter, of.dots = 0, of.args.clear();
+        slope.text = "d";
+        slope.offset = math.offset, slope.length = math.length;
+        slope.args.push_back(std::make_shared<Math>(of));
+        for (int k = 0; k < math.dots; ++k) slope.args.push_back(math.args[0]);
+        term(slope);
     }
 
     void sum(const Math& math) {

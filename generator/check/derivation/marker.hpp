@@ -97,10 +97,12 @@ private:
     void hear(const std::string& words);
     void hear_conditions(const std::string& words);
     bool is_value_of_state(const Letter& letter) const;
+    bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line) const;
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter);
+    bool speaks_of_acceleration() const;
     std::optional<GiNaC::ex> force_along_speed(const Letter& letter) const;
     void know_speed(const std::string& key, const std::vector<GiNaC::ex>& slopes);
     bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
@@ -144,6 +146,7 @@ private:
     std::optional<BaseState> near_;    ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;     ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;  ///< whether its ∂/∂ψ' have been those of the independent rates
+    bool goes_on_ = false;             ///< whether the words only join two formulas of one sentence
     bool has_own_gauge_ = false;       ///< whether its L differs from the scene's by a total derivative
     int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
     std::set<std::string> kept_;       ///< names of constants of the motion that are momenta, or written as such

@@ -74,7 +74,7 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
     std::vector<Binding> own;
     for (Binding& binding : all)
         if (binding.text.find("(" + spoken_ + ")") != std::string::npos) {
-            binding.named = true;
+            binding.spoken = true;
             own.push_back(binding);
         }
     return own.empty() ? all : own;
@@ -123,10 +123,31 @@ void Marker::hear(const std::string& words) {
     speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
     speaks_of_period_ = says({"period", "Period", "周期"});
     speaks_of_roots_ = says({"with the roots", "其根"});
-    speaks_of_rest_ = speaks_of_roots_ || says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止",
+    // "sin θ = 0 or cos θ = …": the sentence goes on.
+    constexpr std::size_t longest_connection = 16;
+    const bool has_stop = words.find('.') != std::string::npos && words.find("i.e.") == std::string::npos &&
+                          words.find("d.h.") == std::string::npos;
+    goes_on_ = !statement_->displayed && words.size() < longest_connection && !has_stop &&
+               words.find("。") == std::string::npos;
+    speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止",
                                                 "平衡", "加速度为零", "Gleichgewicht", "Ruhelage"});
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
+}
+
+/// Whether the statement holds accelerations, or letters that stand for some: m g − T = m a.
+bool Marker::speaks_of_acceleration() const {
+    std::map<Letter, int> all;
+    for (const MathPtr& side : statement_->sides) {
+        if (is_accelerated(*side)) return true;
+        collect_letters(*side, all);
+    }
+    const Mechanism& m = system_.mechanism();
+    return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        const auto name = letters_.name_of(item.first);
+        const auto known = name ? known_.find(*name) : known_.end();
+        return known != known_.end() && m.z->depends(known->second, m.qddot);
+    });
 }
 
 /// "…, where M = m_1 + m_2": a letter that a later line introduces.
@@ -172,8 +193,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
 
 /// T of one body, V of gravity: what the scene has a part for. In an equation of motion T_1 is a force.
 bool Marker::bind_to_part(const Letter& letter) {
-    const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
-                                       [](const MathPtr& side) { return is_accelerated(*side); });
+    const bool of_motion = speaks_of_acceleration();
     const bool starred = letter.raised == "*" || letter.base == "F" || letter.base == "E";
     if (of_motion && !starred) return false;
     std::optional<ex> part = part_named(letter, letters_, system_);
@@ -313,7 +333,7 @@ bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, co
             const Sides sides = sides_of(lhs, rhs);
             const MotionRow row =
                 system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
-            if (system_.rows().holds(row) == true || (binding.named && !spoken_.empty())) {
+            if (system_.rows().holds(row) == true || ((binding.named || binding.spoken) && !spoken_.empty())) {
                 roaming_.insert(letter);
                 judge_pair(line, lhs, rhs);
                 return true;

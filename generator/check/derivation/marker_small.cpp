@@ -86,7 +86,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
 
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
-    if (speaks_of_roots_ && is_root(line, sides)) return true;
+    if ((speaks_of_roots_ || speaks_of_rest_) && is_root(line, sides)) return true;
     if (speaks_of_rest_ && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
     if (!speaks_of_rest_ && !statement_->displayed) return false;
     const auto is_state = [&](const Math& a, const ClaimText& b) {

@@ -39,11 +39,16 @@ bool ends_sentence(const std::string& words) {
 
 /// "At", "for", "steady motion": what is said then holds under a condition.
 void Marker::hear_conditions(const std::string& words) {
-    constexpr int lines_of_condition = 2;
-    if (under_condition_ > 0) --under_condition_;
-    if (ends_sentence(words)) under_condition_ = 0;
-    const bool is_steady = has_any(words, {"teady", "tationary motion", "规则进动", "稳态", "定常", "匀速转动时"});
-    if (is_steady) under_condition_ = lines_of_condition;
+    constexpr int lines_of_condition = 2, to_the_end = 1 << 20;
+    if (under_condition_ > 0 && !goes_on_) --under_condition_;
+    if (ends_sentence(words) && under_condition_ < to_the_end / 2) under_condition_ = 0;
+    if (has_any(words, {"teady", "tationary motion", "onical", "ircular", "leeping", "is constant", "is fixed", "assless",
+                        "Kreisbahn", "konstant", "规则进动", "稳态", "定常", "匀速", "圆锥摆", "圆周", "为常数"}))
+        under_condition_ = lines_of_condition;
+    if (has_any(words, {"from rest", "tarting at rest", "initially at rest", "aus der Ruhe", "静止开始", "初始静止",
+                        "开始静止"}))
+        under_condition_ = lines_of_condition + 2;
+    if (has_any(words, {"gg ", "to infinity", "limit"})) under_condition_ = std::max(under_condition_, 2);
 }
 
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
@@ -54,6 +59,18 @@ bool Marker::is_value_of_state(const Letter& letter) const {
     plain.index.clear();
     const auto name = letters_.name_of(plain);
     return indices.contains(letter.index) && name && letters_.is_of_scene(*name) && letters_.moves(*name);
+}
+
+/// m_1 = m_2, I = 0, M → ∞: parameters of the scene alone, which would be numbers otherwise.
+bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const {
+    const auto is_parameter = [&](const Letter& letter) {
+        const auto name = letters_.name_of(letter);
+        return name && letters_.is_of_scene(*name) && !letters_.moves(*name) && !letters_.is_function(*name);
+    };
+    if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter)) return false;
+    return std::all_of(all.begin(), all.end(), [&](const auto& item) {
+        return item.second == 0 && is_parameter(item.first);
+    });
 }
 
 /// Whether the line states one moment or a condition; then it is told so.
@@ -80,6 +97,10 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         return tell(
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
+    if (states_special_case(lhs, rhs, all)) {
+        under_condition_ = 1 << 20;
+        return tell(say("a condition on parameters; lines are judged for all their values"));
+    }
     const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
     const auto name = lhs.kind == Kind::letter ? letters_.name_of(lhs.letter) : std::nullopt;
     if (statement_->displayed || !is_zero(rhs) || !name) return false;
@@ -91,7 +112,9 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
 
 /// What is a mistake of all motions may hold under the condition that the words state.
 void Marker::weigh_condition(MarkedLine& line) const {
-    if (under_condition_ == 0 || line.status != LineStatus::mistake) return;
+    if (line.status != LineStatus::mistake) return;
+    const bool is_rest_alone = speaks_of_rest_ && !statement_->displayed && system_.mechanism().size() > 1;
+    if (under_condition_ == 0 && !is_rest_alone) return;
     line.status = LineStatus::not_about_scene;
     line.reason = say("the words state a condition for it; lines are judged for all motions");
     line.claim.clear();

@@ -71,7 +71,26 @@ bool speaks_of_angular_momentum(const std::string& words) {
 
 }  // namespace
 
+/// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.
+bool calls_coordinate_q(const Letters& letters, const Written& written) {
+    const Letter q{.base = "q"};
+    if (letters.coordinates().size() != 1 || letters.name_of(q)) return false;
+    bool is_used = false;
+    for (const WrittenStatement& statement : written.statements) {
+        std::map<Letter, int> all;
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+        const bool speaks_of_q = all.contains(q);
+        for (const auto& [letter, dots] : all) {
+            const auto name = letters.name_of(letter);
+            if (name && letters.moves(*name)) return false;
+            is_used = is_used || (speaks_of_q && name && letters.is_of_scene(*name));
+        }
+    }
+    return is_used;
+}
+
 Letters with_authors_letters(Letters letters, const Written& written) {
+    if (calls_coordinate_q(letters, written)) letters.bind({.base = "q"}, letters.coordinates()[0]);
     for (const WrittenStatement& statement : written.statements)
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
             for (const bool turned : {false, true}) {
