@@ -171,6 +171,41 @@ TEST_CASE("check: rest where a factor is there twice, and its corrections, are l
     }
 }
 
+// Where two branches cross a constraint has no direction, and nothing balances a weight; and without a state of
+// rest nothing is proved of it.
+TEST_CASE("check: rest is rest on the scene's own branch, and there must be some") {
+    const auto tied = [](const std::string& constraint) {
+        return fmt::format(R"toml(
+gravity = [0, "-g"]
+[parameters]
+g = 9.8
+l = 1
+[coordinates]
+x = 0.6
+y = -0.8
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "c"
+holonomic = "{}"
+)toml",
+                           constraint);
+    };
+    const Checked crossed =
+        checked_on_sheets(tied("(x^2 + y^2 - l^2)*(x - y)"), "rest\nx = 0\ny^2 = l^2\nx = l\n");
+    CHECK(crossed.claims[0].verdict != refuted);
+    CHECK(crossed.claims[1].verdict != refuted);
+    CHECK(crossed.claims[2].verdict == refuted);
+    const Checked circles = checked_on_sheets(tied("(x^2 + y^2 - 1)*(x^2 + y^2 - 4)"), "rest\ny^2 = 1\ny^2 = 4\n");
+    CHECK(circles.claims[0].verdict != refuted);
+    CHECK(circles.claims[1].verdict != proved);
+    const Checked none = checked_on_sheets(
+        "[coordinates]\nr = 2\n[energy]\nkinetic = \"r'^2/2\"\npotential = \"log(r)\"\n", "rest\nr = 5\n0 = 1\n");
+    for (const CheckedClaim& claim : none.claims) CHECK(claim.verdict == Verdict::vacuous);
+}
+
 // Of logarithms, hyperbolic tangents and arcs exact arithmetic knows little; what holds on both sides is no
 // mistake.
 TEST_CASE("check: identities of elementary functions hold on all sides, and their neighbours do not") {

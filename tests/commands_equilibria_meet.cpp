@@ -163,6 +163,28 @@ TEST_CASE("equilibrium, stability: a rest of high multiplicity is one, and unsta
     }
 }
 
+// Positive definite forms that are not convex: what grows beside such a minimum says nothing. And a sine of a
+// coordinate that is no angle has a rest in each of its turns.
+TEST_CASE(
+    "equilibrium: strict minima of high degree are stable, and lists that lack turns are not called complete") {
+    const auto of = [](const std::string& potential) {
+        return json_of({"equilibrium",
+                        temporary("V.toml",
+                                  "[coordinates]\nx = 0.2\ny = 0.3\n[energy]\nkinetic = \"(x'^2 + "
+                                  "y'^2)/2\"\npotential = \"" +
+                                      potential + "\"\n"),
+                        "--json"});
+    };
+    for (const char* potential :
+         {"(x-0.3)^4+(y-0.7)^4-(x-0.3)^3*(y-0.7)", "((x-0.3)^2+(y-0.2)^2)^3/6-(x-0.3)^2*(y-0.2)^4"}) {
+        const Json found = of(potential);
+        REQUIRE(found["equilibria"].size() == 1);
+        CHECK(found["equilibria"][0]["stable"] == "yes");
+    }
+    CHECK(of("(y - x/3)^2/2 + cos(x)")["complete"] == false);
+    CHECK(of("(y - sin(x))^2/2 + cos(x)")["complete"] == true);
+}
+
 // A shaft with internal friction that turns faster than it swings: whirl grows (a classical result on rotors).
 TEST_CASE("stability: dampers along turning axes may push, and the energy is no proof") {
     const std::string shaft =

@@ -23,11 +23,19 @@ std::vector<std::size_t> without_combinations(Comparison& now, const std::vector
     if (!now.m.redundant.empty()) return claims;  // the share of each is determined only on the constraints
     std::vector<std::size_t> left = claims;
     if (at == Motions::At::rest) {
+        std::optional<bool> is_impossible;  // 1 = 0 follows too
         std::erase_if(left, [&](std::size_t k) {
             if (!now.forms[k].open.empty()) return false;
             const std::optional<double> failure = static_combination(now.claims, now.law, now.forms[k].residual);
-            if (failure) prove(now, k, *failure);
-            return failure.has_value();
+            if (!failure) return false;
+            if (!is_impossible) is_impossible = static_combination(now.claims, now.law, 1).has_value();
+            if (*is_impossible) {
+                now.verdicts[k].verdict = Verdict::vacuous;
+                now.verdicts[k].reason = say("there is no state of rest, of which anything may be said");
+            } else {
+                prove(now, k, *failure);
+            }
+            return true;
         });
         return left;
     }

@@ -10,8 +10,33 @@
 #include "check/open_rows.hpp"
 #include "check/quantities.hpp"
 #include "check/vanishing.hpp"
+#include "model/formalism/rest.hpp"
 
 namespace alembert {
+
+namespace {
+
+/// Of each constraint that is a product, the factor that vanishes at the initial state, if one alone does: states
+/// of rest belong to that branch.
+const std::vector<GiNaC::ex>& own_factors(Comparison& now) {
+    static const std::vector<GiNaC::ex> none;
+    if (now.at != Claim::At::rest) return none;
+    if (now.own_factors) return *now.own_factors;
+    now.own_factors.emplace();
+    for (const Mechanism::Constraint& constraint : now.m.constraints) {
+        if (!constraint.position) continue;
+        const TrigonometricProduct product = product_of(now.m.z->expand(*constraint.position), now.m);
+        std::vector<GiNaC::ex> own;
+        for (const GiNaC::ex& base : product.bases) {
+            const GiNaC::ex factor = base.subs(product.functions, GiNaC::subs_options::no_pattern);
+            if (now.own_motion.is_zero_at_start(factor)) own.push_back(factor);
+        }
+        if (product.bases.size() > 1 && own.size() == 1) now.own_factors->push_back(own[0]);
+    }
+    return *now.own_factors;
+}
+
+}  // namespace
 
 Told told(Comparison& now) {
     return {.mechanism = now.m,
@@ -19,6 +44,7 @@ Told told(Comparison& now) {
             .claims = now.claims,
             .spoken = now.spoken,
             .positive = now.positive,
+            .at_rest_zero = own_factors(now),
             .is_impact = now.at == Claim::At::impact,
             .on_own_branch = now.on_own_branch != nullptr};
 }

@@ -32,6 +32,7 @@ struct Comparison {
     std::vector<GiNaC::ex> positive = {};
     std::vector<GiNaC::ex> assumed = {};  ///< of these, what the claims assume themselves
     OwnMotion own_motion{claims, e};
+    std::optional<std::vector<GiNaC::ex>> own_factors = {};  ///< of constraints that are products, once asked for
 
     // For the claims that are compared now:
     Claim::At at = Claim::At::motion;      ///< motion, rest or impact

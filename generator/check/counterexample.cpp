@@ -140,6 +140,8 @@ public:
           needed_(roots),
           on_own_branch_(told.on_own_branch) {
         needed_.insert(needed_.end(), positive_.begin(), positive_.end());
+        zero_ = told.claims.lower(program_, told.at_rest_zero);
+        needed_.insert(needed_.end(), zero_.begin(), zero_.end());
         if (motions.has_sides()) borders_ = std::make_unique<Borders>(motions);
     }
 
@@ -175,6 +177,7 @@ private:
 
     std::optional<RealState> on_sheet(std::optional<RealState> state) const {
         if (state && borders_ && !borders_->cells.of(*state)) return std::nullopt;
+        if (state && motions_.where() == Motions::At::rest && !is_at_rest(*state)) return std::nullopt;
         if (!state || positive_.empty()) return state;
         const auto value = evaluate(program_, *state, positive_);
         const bool is_on_sheet =
@@ -182,9 +185,21 @@ private:
         return is_on_sheet ? state : std::nullopt;
     }
 
+    /// On the scene's own branch of constraints that are products, and not where two branches cross: there the
+    /// constraint has no direction, and a multiplier beyond all numbers would balance a force.
+    bool is_at_rest(const RealState& state) const {
+        const numeric beyond_all = GiNaC::pow(numeric(10), numeric(15));
+        if (std::any_of(state.value.begin(), state.value.end(), [&](const auto& item) {
+                return item.first.first == Variable::Kind::unknown && GiNaC::abs(item.second) > beyond_all;
+            }))
+            return false;
+        const auto value = zero_.empty() ? std::nullopt : evaluate(program_, state, zero_);
+        return !value || std::all_of(value->begin(), value->end(), [](const numeric& x) { return is_small(x); });
+    }
+
     const Motions& motions_;
     Program program_;
-    std::vector<int> positive_, needed_;
+    std::vector<int> positive_, zero_, needed_;
     bool on_own_branch_;
     std::unique_ptr<Borders> borders_;  ///< nothing where there are none
 };

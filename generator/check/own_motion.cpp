@@ -151,17 +151,25 @@ const std::vector<State<double>>& OwnMotion::states_for(const std::vector<ex>& v
     return are_forced || !motion_.empty() ? motion_ : start_;
 }
 
-bool OwnMotion::is_positive_at_start(const ex& value) {
-    if (claims_.mechanism().z->depends(value, claims_.open_symbols())) return false;
+std::optional<double> OwnMotion::at_start(const ex& value) {
+    if (claims_.mechanism().z->depends(value, claims_.open_symbols())) return std::nullopt;
     const std::vector<State<double>>& states = states_for({value});
-    if (states.empty()) return false;
+    if (states.empty()) return std::nullopt;
     try {
         Program program;
         const int root = claims_.lower(program, {value})[0];
-        return interpret(program, states.front())[root] > 0;
+        return interpret(program, states.front())[static_cast<std::size_t>(root)];
     } catch (const std::runtime_error&) {
-        return false;
+        return std::nullopt;
     }
+}
+
+bool OwnMotion::is_positive_at_start(const ex& value) {
+    return at_start(value).value_or(0) > 0;
+}
+
+bool OwnMotion::is_zero_at_start(const ex& value) {
+    return std::abs(at_start(value).value_or(1)) < 1e-8;
 }
 
 std::optional<OwnMotion::Failure> OwnMotion::failure(const ex& residual, const std::vector<ex>& positive,

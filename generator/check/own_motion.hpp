@@ -24,6 +24,8 @@ public:
     /// Is `value` (of coordinates, rates, accelerations and multipliers) positive at the initial state? False also
     /// if that cannot be decided.
     bool is_positive_at_start(const GiNaC::ex& value);
+    /// The same of zero, to what positions are assembled to.
+    bool is_zero_at_start(const GiNaC::ex& value);
 
     /// The first state of the motion at which `residual` is surely not zero though all of `positive` are positive,
     /// and whether it is the initial one. Nothing if there is none, or where there are no values.
@@ -39,6 +41,7 @@ private:
     /// Those that have what the value depends on: all, or the initial state alone where there are no
     /// accelerations.
     const std::vector<State<double>>& states_for(const std::vector<GiNaC::ex>& values);
+    std::optional<double> at_start(const GiNaC::ex& value);
     void make();
     void follow(Start start, const Program& constraints);
     std::optional<Failure> failure(const GiNaC::ex& residual, const std::vector<GiNaC::ex>& positive,

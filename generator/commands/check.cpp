@@ -109,14 +109,17 @@ bool is_written_by_hand(const std::string& line) {
     const std::size_t colon = line.find(':'), equals = line.find('=');
     const bool is_labelled = colon < equals && longest_sentence(line.substr(0, colon)) > 0;
     const bool is_chain = equals != line.rfind('=') && line.find("==") == std::string::npos;
-    const auto ends_factor = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ')' || c == '\''; };
+    const auto ends_factor = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ')' || c == '\'';
+    };
     const auto begins_factor = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '('; };
     bool has_product = false;  // without a sign: 1/2 m l^2
     for (std::size_t i = 1; i + 1 < line.size(); ++i)
         has_product = has_product || (line[i] == ' ' && ends_factor(line[i - 1]) && begins_factor(line[i + 1]));
-    return is_labelled || is_chain || (has_product && equals != std::string::npos) || longest_sentence(line) >= 3 ||
-           std::any_of(std::begin(signs), std::end(signs),
-                       [&](const char* sign) { return line.find(sign) != std::string::npos; });
+    return is_labelled || is_chain || (has_product && equals != std::string::npos) ||
+           longest_sentence(line) >= 3 || std::any_of(std::begin(signs), std::end(signs), [&](const char* sign) {
+               return line.find(sign) != std::string::npos;
+           });
 }
 
 /// A page of words is no file of claims: it has none of the words of such a file, and sentences, labels or signs

@@ -129,8 +129,9 @@ void Marker::hear(const std::string& words) {
                           words.find("d.h.") == std::string::npos;
     goes_on_ = !statement_->displayed && words.size() < longest_connection && !has_stop &&
                words.find("。") == std::string::npos;
-    speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止",
-                                                "平衡", "加速度为零", "Gleichgewicht", "Ruhelage"});
+    speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ ||
+                      says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡",
+                            "加速度为零", "Gleichgewicht", "Ruhelage"});
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }

@@ -42,11 +42,12 @@ void Marker::hear_conditions(const std::string& words) {
     constexpr int lines_of_condition = 2, to_the_end = 1 << 20;
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words) && under_condition_ < to_the_end / 2) under_condition_ = 0;
-    if (has_any(words, {"teady", "tationary motion", "onical", "ircular", "leeping", "is constant", "is fixed", "assless",
-                        "Kreisbahn", "konstant", "规则进动", "稳态", "定常", "匀速", "圆锥摆", "圆周", "为常数"}))
+    if (has_any(words,
+                {"teady", "tationary motion", "onical", "ircular", "leeping", "is constant", "is fixed", "assless",
+                 "Kreisbahn", "konstant", "规则进动", "稳态", "定常", "匀速", "圆锥摆", "圆周", "为常数"}))
         under_condition_ = lines_of_condition;
-    if (has_any(words, {"from rest", "tarting at rest", "initially at rest", "aus der Ruhe", "静止开始", "初始静止",
-                        "开始静止"}))
+    if (has_any(words, {"from rest", "tarting at rest", "initially at rest", "aus der Ruhe", "静止开始",
+                        "初始静止", "开始静止"}))
         under_condition_ = lines_of_condition + 2;
     if (has_any(words, {"gg ", "to infinity", "limit"})) under_condition_ = std::max(under_condition_, 2);
 }
@@ -68,9 +69,8 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
         return name && letters_.is_of_scene(*name) && !letters_.moves(*name) && !letters_.is_function(*name);
     };
     if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter)) return false;
-    return std::all_of(all.begin(), all.end(), [&](const auto& item) {
-        return item.second == 0 && is_parameter(item.first);
-    });
+    return std::all_of(all.begin(), all.end(),
+                       [&](const auto& item) { return item.second == 0 && is_parameter(item.first); });
 }
 
 /// Whether the line states one moment or a condition; then it is told so.

@@ -138,12 +138,29 @@ std::vector<double> numbers(const Mechanism& m, const std::vector<GiNaC::ex>& li
     return result;
 }
 
+/// Whether a sine is taken of a coordinate that is no angle, as of x in (y - x/3)^2 + cos(x): each of its whole
+/// turns is another state.
+bool turns_otherwise(const Equilibria& found, const SteadyProblem& problem) {
+    const Program& program = problem.residuals().program;
+    const std::vector<int> needed = program.needed(problem.residuals().forcing);
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        const Op op = program[id].op;
+        if (op != Op::sin && op != Op::cos && op != Op::tan) return false;
+        const std::vector<int> inside = program.needed(std::vector{program[id].args[0]});
+        return std::any_of(inside.begin(), inside.end(), [&](int leaf) {
+            const Variable& v = program[leaf].variable;
+            return program[leaf].op == Op::variable && v.kind == Variable::Kind::coordinate &&
+                   !found.search.is_angle[static_cast<std::size_t>(v.index)];
+        });
+    });
+}
+
 /// Compares the solutions in the parameters with those that Newton's method has found: each of the latter must be
 /// one of the former, and each solution that is real at these parameters must be a root.
 void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const Start& start,
                       const std::function<void(const FoundRoot&)>& add) {
     // Newton's method comes no nearer to a root of high multiplicity, and takes it for one of a continuum.
-    constexpr long double same = 1e-9L, same_if_multiple = 1e-4L, same_if_meeting = 5e-3L;
+    constexpr long double same = 1e-9L, same_if_multiple = 1e-4L, same_if_meeting = 3e-2L;
     const Mechanism& m = result.mechanism;
     const auto vanishes = [&](const GiNaC::ex& e) { return !(std::abs(numbers(m, {e}, start)[0]) > 1e-13); };
     auto roots = closed_form(m, result.equations, problem.essential(), vanishes);
@@ -191,7 +208,7 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
                });
     });
     for (const Equilibrium& one : result.list) agrees = agrees && one.exact;
-    result.closed = agrees;
+    result.closed = agrees && result.mechanism.frictions.empty() && !turns_otherwise(result, problem);
     std::sort(result.absent.begin(), result.absent.end(),
               [](const ClosedRoot& a, const ClosedRoot& b) { return a.text < b.text; });
 }

@@ -175,7 +175,8 @@ Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>&
         growing += there->grows ? 1 : 0;
     }
     if (most <= nothing * values.values[0] || change <= much * least) return Meeting::none;
-    return growing == 2 ? Meeting::grows : Meeting::open;
+    // A minimum of several coordinates need not be convex: what grows beside it says nothing.
+    return growing == 2 && n == 1 ? Meeting::grows : Meeting::open;
 }
 
 }  // namespace
@@ -183,7 +184,7 @@ Meeting meeting_within(const SteadyProblem& problem, const Instant<long double>&
 Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
     // Newton's method knows a double root to the square root of its last digits, and roots of higher multiplicity
     // to less: to where the forces are next to nothing.
-    constexpr std::array known_to{2e-5L, 1e-4L, 5e-4L, 2.5e-3L};
+    constexpr std::array known_to{2e-5L, 1e-4L, 5e-4L, 2.5e-3L, 1e-2L};
     if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
     const std::optional<Reduced> r = reduced_at(problem, at);
     const auto values = r ? stiffness(*r) : std::nullopt;
