@@ -122,6 +122,7 @@ void OwnMotion::follow(Start start, const Program& constraints) {
     Energy no_energy;  // its derivatives would lengthen the table of the mechanism with each check
     no_energy.z = m.z;
     const Program law = lower(m, e_, no_energy, {.admissible = [&start] { return start; }});
+    if (law.nodes_of(Group::acceleration).size() != start.q.size()) return;  // what no inertia resists has none
     motion_.push_back(forced(law, start.state()));
     const int steps = static_cast<int>(
         std::min<std::size_t>(most_steps, most_work / (4 * static_cast<std::size_t>(law.size()) + 1)));

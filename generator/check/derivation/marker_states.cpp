@@ -14,6 +14,8 @@ using Kind = Math::Kind;
 
 namespace {
 
+constexpr int to_the_end = 1 << 20;  // how many lines a special case governs
+
 /// (4) = (2)cos θ + (3)sin θ: numbers of equations in parentheses.
 bool speaks_of_numbered_equations(const std::string& source) {
     int numbered = 0;
@@ -39,7 +41,7 @@ bool ends_sentence(const std::string& words) {
 
 /// "At", "for", "steady motion": what is said then holds under a condition.
 void Marker::hear_conditions(const std::string& words) {
-    constexpr int lines_of_condition = 2, to_the_end = 1 << 20;
+    constexpr int lines_of_condition = 2;
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words) && under_condition_ < to_the_end / 2) under_condition_ = 0;
     if (has_any(words,
@@ -98,7 +100,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
     if (states_special_case(lhs, rhs, all)) {
-        under_condition_ = 1 << 20;
+        under_condition_ = to_the_end;
         return tell(say("a condition on parameters; lines are judged for all their values"));
     }
     const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
