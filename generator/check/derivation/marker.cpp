@@ -115,6 +115,7 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
 
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
     if (relation == Relation::proportional) {  // among words it states a condition
+        if (!statement_->displayed) under_condition_ = std::max(under_condition_, 2);
         line.status = statement_->displayed ? LineStatus::not_understood : LineStatus::not_about_scene;
         line.reason = say("only equations are judged");
         return;

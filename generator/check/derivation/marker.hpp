@@ -96,6 +96,7 @@ private:
     std::vector<Binding> bindings(const Letter& letter) const;
     void hear(const std::string& words);
     void hear_conditions(const std::string& words);
+    static bool states_condition(const std::string& words);
     bool is_value_of_state(const Letter& letter) const;
     bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);

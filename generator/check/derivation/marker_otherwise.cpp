@@ -3,6 +3,7 @@
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/language/say.hpp"
 #include "check/total_derivative.hpp"
@@ -60,6 +61,23 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// "at", "for", "if …": what follows in the sentence holds under a condition.
+bool Marker::states_condition(const std::string& words) {
+    static constexpr const char* anywhere[] = {"若", "当", "如果", "设", "取", "If ", "Falls ", "Wenn "};
+    for (const char* const word : anywhere)
+        if (words.find(word) != std::string::npos) return true;
+    const std::size_t end = words.find_last_not_of(" (");
+    if (end == std::string::npos) return false;
+    const std::size_t begin = words.find_last_of(" (", end);
+    std::string last = words.substr(begin == std::string::npos ? 0 : begin + 1,
+                                    end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+    for (char& c : last) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    static constexpr const char* before[] = {"at",  "for", "when",  "if",   "where",
+                                             "bei", "für", "falls", "wenn", "在"};
+    return std::any_of(std::begin(before), std::end(before), [&](const char* word) { return last == word; }) ||
+           words.find(" if ") != std::string::npos;
+}
+
 /// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
 bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     const auto is_plain = [&](const Math& math) {
@@ -70,7 +88,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             const std::string name = letters_.name_of(item.first).value_or("");
             return name == "pi" || (letters_.is_of_scene(name) && !letters_.moves(name));
         });
-        return is_constant || (inner.kind == Kind::letter && inner.dots < 2);
+        const int most_dots = states_condition(statement_->words) ? 2 : 1;  // "if the hand is at rest, h'' = 0"
+        return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
     const auto moves = [&](const ClaimText& side) {
@@ -78,11 +97,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
                            [&](const std::string& name) { return letters_.moves(name); });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
-    static const char* const conditions[] = {"t ", "or ", "hen ", "f ", "here ", "当", "在", "若", "设", "取"};
-    const std::string& words = statement_->words;
-    if (std::any_of(std::begin(conditions), std::end(conditions),
-                    [&](const char* word) { return words.ends_with(word) || (words + " ").ends_with(word); }))
-        under_condition_ = 2;
+    if (states_condition(statement_->words)) under_condition_ = 2;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
     return true;

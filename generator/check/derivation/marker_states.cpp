@@ -51,7 +51,8 @@ void Marker::hear_conditions(const std::string& words) {
     if (has_any(words, {"from rest", "tarting at rest", "initially at rest", "aus der Ruhe", "静止开始",
                         "初始静止", "开始静止"}))
         under_condition_ = lines_of_condition + 2;
-    if (has_any(words, {"gg ", "to infinity", "limit"})) under_condition_ = std::max(under_condition_, 2);
+    if (has_any(words, {"becomes", "reduces to", "to infinity", "limit", "Grenzfall", "极限"}))
+        under_condition_ = std::max(under_condition_, 2);
 }
 
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
