@@ -175,8 +175,9 @@ bool OwnMotion::is_zero_at_start(const ex& value) {
 
 std::optional<OwnMotion::Failure> OwnMotion::failure(const ex& residual, const std::vector<ex>& positive,
                                                      const std::vector<State<double>>& states) const {
-    constexpr double surely =
-        1e-6;  // of the sizes of the terms, and of 1; positions are assembled to 1e-9 of theirs
+    // Of the sizes of the terms, and of 1: positions are assembled to 1e-9 of theirs, and later the motion may
+    // pass where accelerations are known to few digits.
+    constexpr double surely = 1e-6, surely_later = 1e-3;
     const Mechanism& m = claims_.mechanism();
     if (m.z->depends(residual, claims_.open_symbols())) return std::nullopt;
     for (const Mechanism::Constraint* c : m.undetermined())
@@ -191,13 +192,14 @@ std::optional<OwnMotion::Failure> OwnMotion::failure(const ex& residual, const s
             const double left = value[roots[0]], size = size_of_terms(program, roots[0], value);
             const bool is_meant =
                 std::all_of(roots.begin() + 1, roots.end(), [&](int id) { return value[id] > 0; });
+            const bool at_start = &state == &states.front();
             if (!is_meant || !is_resolved(program, roots, value) ||
-                !(std::abs(left) > surely * std::max(size, 1.0)))
+                !(std::abs(left) > (at_start ? surely : surely_later) * std::max(size, 1.0)))
                 continue;
             return Failure{.state = {.values = typed(m, state),
                                      .residual = fmt::format("{:.6g}", left),
                                      .residual_value = left},
-                           .at_start = &state == &states.front()};
+                           .at_start = at_start};
         }
     } catch (const std::runtime_error&) {  // it has no value somewhere
     }
