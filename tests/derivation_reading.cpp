@@ -547,7 +547,15 @@ TEST_CASE("derivation: is_derivation knows endings and LaTeX") {
     CHECK(is_derivation("so $x = 1$", "-"));
     CHECK(is_derivation("\\begin{align} x &= 1 \\end{align}", "-"));
     CHECK_FALSE(is_derivation("m*x'' = -k*x  # a claim", "claims.txt"));
-    CHECK_FALSE(is_derivation("it costs $5", "a.txt"));
+    CHECK_FALSE(is_derivation("it costs $5", "-"));
+    for (const char* claims :
+         {"m*x'' = -k*x\n\n# by hand, as the book has it\nx' = max(0, -x) + dot(vel(p), ex(N))  # the second one",
+          "rest\nsin(theta) = 0\nmotoin", "constants E\nm*x'^2/2 + k*x^2/2 = E", "x = 1\nmotoin"})
+        CHECK_FALSE(is_derivation(claims, "claims.txt"));
+    for (const char* page :
+         {"Kinetic energy: T = 1/2*m*x'^2", "T = ½ m ẋ²", "T = 1/2 m x'^2", "T = m*x'^2/2, V = k*x^2/2",
+          "E = T + V = const", "The kinetic energy is T = m*x'^2/2."})
+        CHECK(is_derivation(page, "page.txt"));
 }
 
 TEST_CASE("derivation: limits and encoding are told with their place") {

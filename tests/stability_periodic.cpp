@@ -82,6 +82,21 @@ TEST_CASE(
     CHECK(judged(mathieu("0.1", along_x + "y = \"-2.3*y - c*y'\"\n"), {}).verdict == V::asymptotically_stable);
 }
 
+// x'' = −(0.5 ± 0.3) x, each for half of the period: the trace is 2 cos πa cos πb − (a/b + b/a) sin πa sin πb with
+// a² = 0.8, b² = 0.2.
+TEST_CASE("stability: a square wave of time is no constant") {
+    const Stability s = judged(parse_scene("[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
+                                           "\"-(0.5 + 0.3*sign(cos(t)))*x\"\n",
+                                           "case.toml"),
+                               {}, 2 * M_PI);
+    const double a = std::sqrt(0.8), b = std::sqrt(0.2);
+    const double trace =
+        2 * std::cos(M_PI * a) * std::cos(M_PI * b) - (a / b + b / a) * std::sin(M_PI * a) * std::sin(M_PI * b);
+    REQUIRE(s.multipliers.size() == 2);
+    CHECK(std::abs(s.multipliers[0].real() + s.multipliers[1].real() - trace) < 1e-9);
+    CHECK(s.verdict == V::stable);
+}
+
 TEST_CASE(
     "stability: Kapitza's pendulum has its threshold where Mathieu's equation has it, and near that of "
     "averaging") {

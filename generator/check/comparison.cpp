@@ -44,7 +44,7 @@ Told told(Comparison& now) {
             .claims = now.claims,
             .spoken = now.spoken,
             .positive = now.positive,
-            .at_rest_zero = own_factors(now),
+            .own_factors = own_factors(now),
             .is_impact = now.at == Claim::At::impact,
             .on_own_branch = now.on_own_branch != nullptr};
 }

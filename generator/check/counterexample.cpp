@@ -140,7 +140,7 @@ public:
           needed_(roots),
           on_own_branch_(told.on_own_branch) {
         needed_.insert(needed_.end(), positive_.begin(), positive_.end());
-        zero_ = told.claims.lower(program_, told.at_rest_zero);
+        zero_ = told.claims.lower(program_, told.own_factors);
         needed_.insert(needed_.end(), zero_.begin(), zero_.end());
         if (motions.has_sides()) borders_ = std::make_unique<Borders>(motions);
     }

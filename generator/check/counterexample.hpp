@@ -34,7 +34,7 @@ struct Told {
         spoken;  ///< positions in Mechanism::undetermined(): the multipliers in the claims
     const std::vector<GiNaC::ex>&
         positive;  ///< expressions that are positive on the sheet of roots on which the claims are checked
-    const std::vector<GiNaC::ex>& at_rest_zero;  ///< of constraints that are products, the scene's own factors
+    const std::vector<GiNaC::ex>& own_factors;  ///< at rest: what vanishes on the scene's own branch
     bool is_impact = false;
     bool on_own_branch = false;  ///< only states on the scene's own branch count
 };

@@ -70,6 +70,11 @@ struct Variable {
     friend bool operator==(const Variable&, const Variable&) = default;
 };
 
+/// That of Node::depends.
+constexpr unsigned bit(Variable::Kind kind) {
+    return 1U << static_cast<unsigned>(kind);
+}
+
 /// The lists stand in the program, and as long as it does.
 struct Node {
     Op op = Op::number;

@@ -16,10 +16,6 @@ namespace alembert {
 
 namespace {
 
-constexpr unsigned bit(Variable::Kind kind) {
-    return 1U << static_cast<unsigned>(kind);
-}
-
 /// Copies the program and collects the functions whose signs are kept constant.
 class Holding {
 public:

@@ -12,6 +12,7 @@
 #include "model/energy.hpp"
 #include "model/parameter_values.hpp"
 #include "program/lower/lower.hpp"
+#include "stability/equilibrium/loads.hpp"
 #include "stability/periodic.hpp"
 
 namespace alembert {
@@ -136,26 +137,20 @@ std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const Periodi
 /// Do the loads outside V have a potential too, at these values of the parameters, and are all constraints
 /// holonomic? The multipliers are then those of a symplectic matrix.
 bool has_hamiltonian(const Mechanism& m, const std::vector<double>& parameters) {
-    constexpr double largest_tree = 2000;
     for (const Mechanism::Constraint& c : m.constraints)
         if (!c.position) return false;
+    auto Q = written_out_loads(m);
+    if (!Q) return false;
     const ParameterValues values(m, parameters);
     GiNaC::exmap zeros;
     for (const Mechanism::Parameter& p : m.parameters)
         if (values.number(p.symbol) == 0) zeros[p.symbol] = 0;
-    std::vector<ex> Q = m.generalized_forces(false);
-    const std::vector<ex> damping = m.generalized_forces(true);
-    for (std::size_t i = 0; i < Q.size(); ++i) {
-        const ex force = Q[i] + damping[i];
-        if (m.z->tree_size(force) > largest_tree) return false;
-        Q[i] = m.z->expand(force).subs(zeros, GiNaC::subs_options::no_pattern);
+    for (ex& load : *Q) {
+        load = load.subs(zeros, GiNaC::subs_options::no_pattern);
+        for (const GiNaC::symbol& rate : m.qdot)
+            if (!is_identically_zero(load.diff(rate), m)) return false;
     }
-    for (int i = 0; i < m.size(); ++i)
-        for (int j = 0; j < m.size(); ++j) {
-            if (!is_identically_zero(Q[i].diff(m.qdot[j]), m)) return false;
-            if (j < i && !is_identically_zero(Q[i].diff(m.q[j]) - Q[j].diff(m.q[i]), m)) return false;
-        }
-    return true;
+    return have_potential(*Q, m);
 }
 
 }  // namespace

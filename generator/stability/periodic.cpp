@@ -63,13 +63,21 @@ Program differentiated_program(const Derived& d) {
     return std::move(program->program);
 }
 
+/// Whether a sign changes with t: sign(cos(t)) has no slope in t, and is no constant.
+bool is_switched_by_time(const Program& program) {
+    const std::vector<int> needed = program.needed(program.right_hand_side());
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        return program[id].op == Op::sign && (program[id].depends & bit(Variable::Kind::time)) != 0;
+    });
+}
+
 }  // namespace
 
 PeriodicSystem::PeriodicSystem(const Derived& d)
     : derived_(d),
       program_(differentiated_program(d)),
       residuals_(in_terms_of(d.equations, d.mechanism), d.equations),
-      autonomous_(!changes_with_time(d.mechanism, d.equations)) {}
+      autonomous_(!changes_with_time(d.mechanism, d.equations) && !is_switched_by_time(program_)) {}
 
 std::vector<std::string> PeriodicSystem::names() const {
     std::vector<std::string> result;

@@ -421,7 +421,6 @@ private:
 
     std::optional<numeric> side(const RealState& state, std::size_t k) const {
         const int node = sides_[k];
-        constexpr auto bit = [](Variable::Kind kind) { return 1U << static_cast<unsigned>(kind); };
         if ((program_[node].depends & (bit(Variable::Kind::acceleration) | bit(Variable::Kind::unknown))) != 0)
             return std::nullopt;
         const auto values = evaluate(program_, state, {node});

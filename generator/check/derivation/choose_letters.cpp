@@ -188,11 +188,7 @@ bool is_borne_out(const std::pair<Letter, std::string>& guess, const Written& wr
         std::map<Letter, int> all;
         for (const MathPtr& side : written.statements[line.statement].sides) collect_letters(*side, all);
         if (!all.contains(guess.first)) continue;
-        const bool is_fine = line.status == LineStatus::right || line.status == LineStatus::right_near ||
-                             line.status == LineStatus::right_up_to_constant ||
-                             line.status == LineStatus::right_up_to_derivative ||
-                             line.status == LineStatus::unfounded;
-        right += is_fine ? 1 : 0;
+        right += is_right(line.status) || line.status == LineStatus::unfounded ? 1 : 0;
         wrong += line.status == LineStatus::mistake ? 1 : 0;
     }
     const int needed = are_of_one_kind(guess.first.base, guess.second) ? 1 : 2;

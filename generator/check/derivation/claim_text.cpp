@@ -303,6 +303,20 @@ ClaimText claim_text(const Math& math, const ClaimWriting& writing) {
     return Writer(writing).write(math);
 }
 
+Lone lone_letter(const Math& side) {
+    using Kind = Math::Kind;
+    if (side.kind == Kind::letter && side.dots == 0) return {&side, 1};
+    const bool is_function =
+        side.kind == Kind::applied && side.letter.base.size() == 1 && !side.letter.index.empty();
+    if (is_function && std::all_of(side.args.begin(), side.args.end(),
+                                   [](const MathPtr& arg) { return arg->kind == Kind::letter; }))
+        return {&side, 1};
+    const bool is_square = side.kind == Kind::power && side.args[0]->kind == Kind::letter &&
+                           side.args[0]->dots == 0 && side.args[1]->kind == Kind::number &&
+                           side.args[1]->text == "2";
+    return is_square ? Lone{side.args[0].get(), 2} : Lone{};
+}
+
 bool is_accelerated(const Math& math) {
     return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(),
                                         [](const MathPtr& arg) { return is_accelerated(*arg); });

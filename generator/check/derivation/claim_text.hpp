@@ -60,6 +60,13 @@ ClaimText claim_text(const Math& math, const ClaimWriting& writing);
 /// Whether an acceleration stands in it.
 bool is_accelerated(const Math& math);
 
+/// A letter alone on a side, U_eff(θ) too, or its square.
+struct Lone {
+    const Math* letter = nullptr;
+    int power = 1;
+};
+Lone lone_letter(const Math& side);
+
 /// Every letter of the tree, with the most dots that it has anywhere.
 void collect_letters(const Math& math, std::map<Letter, int>& to);
 

@@ -48,6 +48,7 @@ public:
     /// It is the author's own, whatever the scene or mechanics have of that name: only what he says of it counts.
     void leave_to_author(const Letter& letter) { own_.insert(letter); }
     bool is_authors(const Letter& letter) const { return own_.contains(letter); }
+    const std::set<Letter>& authors() const { return own_; }
     /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be
     /// a quantity of mechanics (∂L/∂q'), even if the scene has a length of this name.
     std::optional<std::string> name_of(const Letter& letter, bool as_quantity = false) const;

@@ -39,6 +39,11 @@ const char* name_of(LineStatus status) {
     return "undecided";
 }
 
+bool is_right(LineStatus status) {
+    return status == LineStatus::right || status == LineStatus::right_near ||
+           status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative;
+}
+
 Marked mark(Scene scene, Written written, const MarkOptions& options) {
     DerivedSystem derived{std::move(scene), options.by};
     return mark(derived, std::move(written), options);
@@ -53,14 +58,17 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     const Readings readings(system, result.written);
     Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));
+    const Letters settled = marker.letters();
     marker.run();
     marker.verify();
-    readings.withhold(marker.lines, chosen.letters, chosen.given);
+    readings.withhold(marker.lines, settled, chosen.given);
     result.missing = marker.missing();
     result.complete = result.missing.empty();
     result.lines = std::move(marker.lines);
     result.letters = chosen.told;
     result.remarks = chosen.remarks;
+    for (const Letter& letter : settled.authors())
+        result.remarks.push_back(say("{} is read as a letter of the author's own", identifier_of(letter)));
     const auto first = std::find_if(result.lines.begin(), result.lines.end(),
                                     [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
     if (first != result.lines.end()) result.first_mistake = static_cast<std::size_t>(first - result.lines.begin());

@@ -32,6 +32,9 @@ enum class LineStatus {
     not_about_scene,
 };
 
+/// Right in one of its senses.
+bool is_right(LineStatus status);
+
 /// "right_up_to_constant": as JSON has it.
 const char* name_of(LineStatus status);
 

@@ -98,7 +98,7 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = LineStatus::undecided;
         line.reason = say("it could not be evaluated");
     }
-    weigh_condition(line);
+    weigh_condition(line, lhs);
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
@@ -115,7 +115,6 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
 
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
     if (relation == Relation::proportional) {  // among words it states a condition
-        if (!statement_->displayed) under_condition_ = std::max(under_condition_, 2);
         line.status = statement_->displayed ? LineStatus::not_understood : LineStatus::not_about_scene;
         line.reason = say("only equations are judged");
         return;

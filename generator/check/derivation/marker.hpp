@@ -77,7 +77,7 @@ private:
     bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
-    bool is_assumption(MarkedLine& line, const Sides& sides);
+    bool is_assumption(MarkedLine& line, const Sides& sides) const;
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
@@ -91,16 +91,16 @@ private:
     bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text);
     bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    void hold_against_momenta(MarkedLine& line, const Math& value);
     void hold_momenta(const std::string& name, const ClaimText& text, const ClaimText& own,
                       std::optional<std::size_t> wrong);
     std::vector<Binding> bindings(const Letter& letter) const;
     void hear(const std::string& words);
     void hear_conditions(const std::string& words);
-    static bool states_condition(const std::string& words);
     bool is_value_of_state(const Letter& letter) const;
     bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
-    void weigh_condition(MarkedLine& line) const;
+    void weigh_condition(MarkedLine& line, const Math& lhs) const;
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter);
     bool speaks_of_acceleration() const;
@@ -150,6 +150,7 @@ private:
     bool goes_on_ = false;             ///< whether the words only join two formulas of one sentence
     bool has_own_gauge_ = false;       ///< whether its L differs from the scene's by a total derivative
     int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
+    bool is_special_case_ = false;     ///< whether the derivation has set parameters equal, or to numbers
     std::set<std::string> kept_;       ///< names of constants of the motion that are momenta, or written as such
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word

@@ -13,6 +13,7 @@
 #include "check/derivation/bindings.hpp"
 #include "check/derivation/parts.hpp"
 #include "check/total_derivative.hpp"
+#include "check/written/words.hpp"
 #include "model/formalism/elements.hpp"
 
 namespace alembert {
@@ -21,25 +22,6 @@ using GiNaC::ex;
 using Kind = Math::Kind;
 
 namespace {
-
-/// A letter alone on a side, or its square.
-struct Lone {
-    const Math* letter = nullptr;
-    int power = 1;
-};
-
-Lone lone_letter(const Math& side) {
-    if (side.kind == Kind::letter && side.dots == 0) return {&side, 1};
-    const bool is_function =
-        side.kind == Kind::applied && side.letter.base.size() == 1 && !side.letter.index.empty();
-    if (is_function && std::all_of(side.args.begin(), side.args.end(),
-                                   [](const MathPtr& arg) { return arg->kind == Kind::letter; }))
-        return {&side, 1};  // U_eff(θ)
-    const bool is_power = side.kind == Kind::power && side.args[0]->kind == Kind::letter &&
-                          side.args[0]->dots == 0 && side.args[1]->kind == Kind::number &&
-                          side.args[1]->text == "2";
-    return is_power ? Lone{side.args[0].get(), 2} : Lone{};
-}
 
 /// "psi" of the index "psi_dot"; empty for one without a dot.
 std::string without_dot(const std::string& index) {
@@ -123,12 +105,7 @@ void Marker::hear(const std::string& words) {
     speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
     speaks_of_period_ = says({"period", "Period", "周期"});
     speaks_of_roots_ = says({"with the roots", "其根"});
-    // "sin θ = 0 or cos θ = …": the sentence goes on.
-    constexpr std::size_t longest_connection = 16;
-    const bool has_stop = words.find('.') != std::string::npos && words.find("i.e.") == std::string::npos &&
-                          words.find("d.h.") == std::string::npos;
-    goes_on_ = !statement_->displayed && words.size() < longest_connection && !has_stop &&
-               words.find("。") == std::string::npos;
+    goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
     speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ ||
                       says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡",
                             "加速度为零", "Gleichgewicht", "Ruhelage"});
@@ -172,11 +149,8 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
-                const bool is_explained = !statement.displayed && !is_accelerated(value) &&
-                                          (statement.words.find("where") != std::string::npos ||
-                                           statement.words.find("with") != std::string::npos ||
-                                           statement.words.find("and") != std::string::npos ||
-                                           statement.words.find("其中") != std::string::npos);
+                const bool is_explained =
+                    !statement.displayed && !is_accelerated(value) && explains(statement.words);
                 if (of_motion && !is_explained && !is_constant(value))
                     continue;  // a force, which the equation itself determines
                 try {
@@ -254,6 +228,7 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     }
     if (introduces_symbols_ || letters_.is_authors(lone.letter->letter)) {
         define(line, *lone.letter, rhs, lone.power);
+        if (lone.power == 1 && speaks_of_angular_momentum(statement_->words)) hold_against_momenta(line, rhs);
         return true;
     }
     if (bind_to_part(lone.letter->letter)) return false;
@@ -263,6 +238,21 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (is_frequency(line, *lone.letter, rhs, lone.power)) return true;
     define(line, *lone.letter, rhs, lone.power);
     return true;
+}
+
+/// L = m l² θ' as an angular momentum: right if it is a generalized momentum; of another one it is not known about
+/// which point it is.
+void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    const ex stated = truth_.value(claim_text(value, as_written()).text);
+    const std::vector<ex> momenta = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
+    const bool is_one = std::any_of(momenta.begin(), momenta.end(), [&](const ex& momentum) {
+        return rows.is_identity(rows.row(stated - momentum)) == true;
+    });
+    line.status = is_one ? LineStatus::right : LineStatus::undecided;
+    line.reason = is_one ? say("a generalized momentum")
+                         : say("an angular momentum that is none of the generalized momenta; it is not judged");
 }
 
 /// T + V = const: an expression that changes with the state and keeps its value.

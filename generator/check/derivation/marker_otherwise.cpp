@@ -3,10 +3,10 @@
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/language/say.hpp"
 #include "check/total_derivative.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
@@ -61,25 +61,8 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
-/// "at", "for", "if …": what follows in the sentence holds under a condition.
-bool Marker::states_condition(const std::string& words) {
-    static constexpr const char* anywhere[] = {"若", "当", "如果", "设", "取", "If ", "Falls ", "Wenn "};
-    for (const char* const word : anywhere)
-        if (words.find(word) != std::string::npos) return true;
-    const std::size_t end = words.find_last_not_of(" (");
-    if (end == std::string::npos) return false;
-    const std::size_t begin = words.find_last_of(" (", end);
-    std::string last = words.substr(begin == std::string::npos ? 0 : begin + 1,
-                                    end - (begin == std::string::npos ? 0 : begin + 1) + 1);
-    for (char& c : last) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    static constexpr const char* before[] = {"at",  "for", "when",  "if",   "where",
-                                             "bei", "für", "falls", "wenn", "在"};
-    return std::any_of(std::begin(before), std::end(before), [&](const char* word) { return last == word; }) ||
-           words.find(" if ") != std::string::npos;
-}
-
 /// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
-bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
+bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
     const auto is_plain = [&](const Math& math) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
         std::map<Letter, int> all;
@@ -97,7 +80,6 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
                            [&](const std::string& name) { return letters_.moves(name); });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
-    if (states_condition(statement_->words)) under_condition_ = 2;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
     return true;

@@ -7,14 +7,13 @@
 #include <cctype>
 
 #include "base/language/say.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
 using Kind = Math::Kind;
 
 namespace {
-
-constexpr int to_the_end = 1 << 20;  // how many lines a special case governs
 
 /// (4) = (2)cos θ + (3)sin θ: numbers of equations in parentheses.
 bool speaks_of_numbered_equations(const std::string& source) {
@@ -28,31 +27,15 @@ bool speaks_of_numbered_equations(const std::string& source) {
     return numbered > 1 && source.find('(') == source.find_first_not_of(" {\\quad");
 }
 
-bool has_any(const std::string& words, std::initializer_list<const char*> list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const char* part) { return words.find(part) != std::string::npos; });
-}
-
-bool ends_sentence(const std::string& words) {
-    return has_any(words, {". ", "。", "; ", "；"}) || words.ends_with('.');
-}
-
 }  // namespace
 
-/// "At", "for", "steady motion": what is said then holds under a condition.
+/// "Steady motion", "starts from rest": what is said then holds under a condition, until the sentence ends.
 void Marker::hear_conditions(const std::string& words) {
-    constexpr int lines_of_condition = 2;
+    constexpr int lines_of_motion = 2, lines_of_start = 4;  // a display ends a sentence without a full stop
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
-    if (ends_sentence(words) && under_condition_ < to_the_end / 2) under_condition_ = 0;
-    if (has_any(words,
-                {"teady", "tationary motion", "onical", "ircular", "leeping", "is constant", "is fixed", "assless",
-                 "Kreisbahn", "konstant", "规则进动", "稳态", "定常", "匀速", "圆锥摆", "圆周", "为常数"}))
-        under_condition_ = lines_of_condition;
-    if (has_any(words, {"from rest", "tarting at rest", "initially at rest", "aus der Ruhe", "静止开始",
-                        "初始静止", "开始静止"}))
-        under_condition_ = lines_of_condition + 2;
-    if (has_any(words, {"becomes", "reduces to", "to infinity", "limit", "Grenzfall", "极限"}))
-        under_condition_ = std::max(under_condition_, 2);
+    if (ends_sentence(words)) under_condition_ = 0;
+    if (speaks_of_special_motion(words) || states_condition(words)) under_condition_ = lines_of_motion;
+    if (speaks_of_start_from_rest(words)) under_condition_ = lines_of_start;
 }
 
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
@@ -101,7 +84,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
     if (states_special_case(lhs, rhs, all)) {
-        under_condition_ = to_the_end;
+        is_special_case_ = true;
         return tell(say("a condition on parameters; lines are judged for all their values"));
     }
     const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
@@ -113,11 +96,13 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     return false;
 }
 
-/// What is a mistake of all motions may hold under the condition that the words state.
-void Marker::weigh_condition(MarkedLine& line) const {
+/// What is a mistake of all motions may hold under the condition that the words state. T and V are what they are
+/// in every state, but not for every value of the parameters.
+void Marker::weigh_condition(MarkedLine& line, const Math& lhs) const {
     if (line.status != LineStatus::mistake) return;
+    const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !statement_->displayed && system_.mechanism().size() > 1;
-    if (under_condition_ == 0 && !is_rest_alone) return;
+    if (!is_special_case_ && (is_energy || (under_condition_ == 0 && !is_rest_alone))) return;
     line.status = LineStatus::not_about_scene;
     line.reason = say("the words state a condition for it; lines are judged for all motions");
     line.claim.clear();

@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/claim_text.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
@@ -15,11 +16,10 @@ using Kind = Math::Kind;
 
 constexpr int most_tried = 6;
 
+/// The letter that stands alone on a side; null if none does.
 const Letter* alone_in(const Math& side) {
-    if (side.kind == Kind::letter && side.dots == 0) return &side.letter;
-    const bool is_square =
-        side.kind == Kind::power && side.args[1]->kind == Kind::number && side.args[1]->text == "2";
-    return is_square ? alone_in(*side.args[0]) : nullptr;
+    const Lone lone = lone_letter(side);
+    return lone.letter == nullptr ? nullptr : &lone.letter->letter;
 }
 
 bool speaks_of(const Math& math, const Letter& letter) {
@@ -53,23 +53,10 @@ bool has_motion(const Math& math, const Letters& letters) {
     });
 }
 
-bool counts_as_right(LineStatus status) {
-    return status == LineStatus::right || status == LineStatus::right_near ||
-           status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative;
-}
-
 std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
     return std::count_if(lines.begin(), lines.end(),
                          [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
 }
-
-bool speaks_of_angular_momentum(const std::string& words) {
-    for (const char* const phrase : {"ngular momentum", "oment of momentum", "角动量", "动量矩", "Drehimpuls"})
-        if (words.find(phrase) != std::string::npos) return true;
-    return false;
-}
-
-}  // namespace
 
 /// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.
 bool calls_coordinate_q(const Letters& letters, const Written& written) {
@@ -88,6 +75,8 @@ bool calls_coordinate_q(const Letters& letters, const Written& written) {
     }
     return is_used;
 }
+
+}  // namespace
 
 Letters with_authors_letters(Letters letters, const Written& written) {
     if (calls_coordinate_q(letters, written)) letters.bind({.base = "q"}, letters.coordinates()[0]);
@@ -133,7 +122,7 @@ Readings::Uses Readings::uses(const std::vector<MarkedLine>& lines, std::size_t 
             *alone_in(*left) == letter)
             continue;  // x = a = b
         ++result.all;
-        result.right += counts_as_right(lines[i].status) ? 1 : 0;
+        result.right += is_right(lines[i].status) ? 1 : 0;
     }
     return result;
 }
@@ -171,8 +160,7 @@ Letters Readings::settle(Letters letters, const std::set<Letter>& given) const {
         std::vector<MarkedLine> otherwise = marked_with(other);
         if (otherwise.size() != lines.size() || otherwise[k].status == LineStatus::mistake) continue;
         const Uses guessed = uses(lines, k, *letter), own = uses(otherwise, k, *letter);
-        const bool is_authors =
-            own.right > 0 && own.right >= guessed.right && mistakes(otherwise) < mistakes(lines);
+        const bool is_authors = own.right >= guessed.right && own.all > 0 && mistakes(otherwise) < mistakes(lines);
         if (!is_authors) continue;
         letters = std::move(other);
         lines = std::move(otherwise);
@@ -187,11 +175,11 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
         if (!letter || !letter->index.empty() || uses(lines, k, *letter).all > 0) continue;
         lines[k].status = LineStatus::undecided;
         lines[k].checked = {};
+        const std::string name = identifier_of(*letter);
         lines[k].reason =
-            say("it is wrong of what {} usually is here; if {} is a letter of your own, the line defines it, and "
-                "no later "
-                "line tells",
-                identifier_of(*letter), identifier_of(*letter));
+            say("it is wrong of what {} usually is here; if {} is a letter of your own, the line defines it, "
+                "and no later line tells",
+                name, name);
     }
 }
 

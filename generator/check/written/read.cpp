@@ -2,6 +2,8 @@
 #include "check/written/read.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <utility>
 
 #include "base/language/say.hpp"
@@ -57,6 +59,65 @@ void check_encoding(const Written& written) {
     }
 }
 
+/// How many words of two letters or more follow each other with blanks between them, at the most.
+std::size_t longest_sentence(const std::string& line) {
+    std::size_t longest = 0, words = 0, letters = 0;
+    const auto end_word = [&](bool goes_on) {
+        words = letters >= 2 ? words + 1 : letters == 0 && goes_on ? words : 0;
+        longest = std::max(longest, words);
+        if (!goes_on) words = 0;
+        letters = 0;
+    };
+    for (const char c : line)
+        if (std::isalpha(static_cast<unsigned char>(c)) != 0)
+            ++letters;
+        else
+            end_word(c == ' ');
+    end_word(false);
+    return longest;
+}
+
+/// Whether the line is written as people write formulas: "Kinetic energy: T = ½ m l² θ̇²".
+bool is_written_by_hand(const std::string& line) {
+    static constexpr const char* signs[] = {"²", "³", "½", "⅓", "¼", "⅔", "·", "\u0307", "\u0308"};
+    const std::size_t colon = line.find(':'), equals = line.find('=');
+    const bool is_labelled = colon < equals && longest_sentence(line.substr(0, colon)) > 0;
+    const bool is_chain = equals != line.rfind('=') && line.find("==") == std::string::npos;
+    const auto ends_factor = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ')' || c == '\'';
+    };
+    const auto begins_factor = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '('; };
+    bool has_product = false;  // without a sign: 1/2 m l^2
+    for (std::size_t i = 1; i + 1 < line.size(); ++i)
+        has_product = has_product || (line[i] == ' ' && ends_factor(line[i - 1]) && begins_factor(line[i + 1]));
+    return is_labelled || is_chain || (has_product && equals != std::string::npos) ||
+           longest_sentence(line) >= 3 || std::any_of(std::begin(signs), std::end(signs), [&](const char* sign) {
+               return line.find(sign) != std::string::npos;
+           });
+}
+
+/// A page of words is no file of claims: it has none of the words of such a file, and sentences, labels or signs
+/// that these do not have.
+bool has_prose(const std::string& text) {
+    bool is_by_hand = false;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        std::string line = text.substr(begin, end - begin);
+        begin = end + 1;
+        line.resize(std::min(line.find('#'), line.size()));  // a comment
+        const std::size_t first = line.find_first_not_of(" \t\r");
+        if (first == std::string::npos) continue;
+        static constexpr std::string_view modes[] = {"unknowns", "constants", "rest",   "impact",   "motion",
+                                                     "solution", "near",      "closed", "sticking", "where"};
+        const std::string word = line.substr(first, line.find_first_of(" \t\r", first) - first);
+        if (std::find(std::begin(modes), std::end(modes), word) != std::end(modes)) return false;
+        const bool is_equation = line.find('=') != std::string::npos || line.find("＝") != std::string::npos;
+        is_by_hand = is_by_hand || is_written_by_hand(line) || (!is_equation && longest_sentence(line) >= 2) ||
+                     (!is_equation && static_cast<unsigned char>(line[first]) >= 0x80);
+    }
+    return is_by_hand;
+}
+
 }  // namespace
 
 int Written::line(std::size_t offset) const {
@@ -77,7 +138,7 @@ int Written::column(std::size_t offset) const {
 
 bool is_derivation(const std::string& text, const std::string& file) {
     return file.ends_with(".tex") || file.ends_with(".latex") || file.ends_with(".md") ||
-           file.ends_with(".markdown") || has_enclosed_latex(text);
+           file.ends_with(".markdown") || has_enclosed_latex(text) || (file.ends_with(".txt") && has_prose(text));
 }
 
 Written read_derivation(std::string text, std::string file) {

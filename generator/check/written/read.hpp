@@ -53,8 +53,9 @@ struct Written {
     int column(std::size_t offset) const;   ///< from 1, in characters
 };
 
-/// Whether `check` should read this as a derivation rather than as a file of claims: by the ending .tex or .md, or
-/// by mathematics of LaTeX in it ($…$, \[, \(, \begin{align}, \frac).
+/// Whether `check` should read this as a derivation rather than as a file of claims: by the ending .tex or .md, by
+/// mathematics of LaTeX in it ($…$, \[, \(, \begin{align}, \frac), or, in a .txt, by sentences, labels or signs
+/// that a file of claims does not have.
 bool is_derivation(const std::string& text, const std::string& file);
 
 /// Throws SceneError for text that is no UTF-8, that exceeds the limits, or that holds no mathematics at all.

@@ -65,6 +65,77 @@ bool speaks_of_first_order(std::string_view words) {
         "kleine auslenkung*|kleine schwingung*");
 }
 
+namespace {
+
+/// Where the last full stop in the words ends; 0 if there is none. "i.e." and "d.h." have none.
+std::size_t end_of_sentences(std::string_view words) {
+    std::size_t end = 0;
+    for (std::size_t at = 0; at < words.size(); ++at) {
+        const std::string_view rest = words.substr(at);
+        const std::string_view before = words.substr(0, at + 1);
+        const bool is_stop = rest.front() == '.' && (rest.size() == 1 || rest[1] == ' ') &&
+                             !before.ends_with("i.e.") && !before.ends_with("d.h.") && !before.ends_with("z.B.");
+        if (is_stop || rest.starts_with("; ")) end = at + 1;
+        for (const std::string_view wide : {"。", "；"})
+            if (rest.starts_with(wide)) end = at + wide.size();
+    }
+    return end;
+}
+
+std::string last_sentence(std::string_view words) {
+    return in_lower_case(words.substr(end_of_sentences(words)));
+}
+
+}  // namespace
+
+bool ends_sentence(std::string_view words) {
+    return end_of_sentences(words) > 0;
+}
+
+bool joins_formulas(std::string_view words) {
+    constexpr std::size_t longest = 16;
+    return words.size() < longest && !ends_sentence(words);
+}
+
+bool states_condition(std::string_view words) {
+    const std::string sentence = last_sentence(words);
+    if (has_phrase(sentence,
+                   "if|when|whenever|suppose|assum*|in the limit|in the case|special case*|falls|wenn|"
+                   "im grenzfall|若*|当*|如果*|假设*|极限*|特殊情形*"))
+        return true;
+    const std::size_t end = sentence.find_last_not_of(" (");
+    const std::string_view before = std::string_view(sentence).substr(0, end == std::string::npos ? 0 : end + 1);
+    static constexpr std::string_view last[] = {"at", "for", "bei", "für", "在", "对于"};
+    return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
+        if (!before.ends_with(word)) return false;
+        const std::size_t begin = before.size() - word.size();
+        return begin == 0 || before[begin - 1] == ' ' || static_cast<unsigned char>(word[0]) >= 0x80;
+    });
+}
+
+bool speaks_of_special_motion(std::string_view words) {
+    return has_phrase(
+        last_sentence(words),
+        "steady motion*|steady precession|steady rotation|steady state|stationary motion*|regular precession|"
+        "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
+        "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
+}
+
+bool speaks_of_start_from_rest(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "from rest|at rest initially|initially at rest|aus der ruhe|anfangs in ruhe|静止开始*|从静止*|"
+        "初始静止*|开始静止*|初始时静止*");
+}
+
+bool speaks_of_angular_momentum(std::string_view words) {
+    return has_phrase(last_sentence(words), "angular momentum|moment of momentum|drehimpuls*|角动量*|动量矩*");
+}
+
+bool explains(std::string_view words) {
+    return has_phrase(in_lower_case(words), "where|with|and|wobei|mit|und|其中*|式中*");
+}
+
 bool is_word_for_letter(std::string_view word) {
     if (word.empty() || word.size() > 40) return false;
     static constexpr std::string_view no_names[] = {

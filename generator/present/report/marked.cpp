@@ -141,9 +141,8 @@ std::size_t count_of(const Marked& marked, LineStatus status) {
 }
 
 std::size_t count_right(const Marked& marked) {
-    return count_of(marked, LineStatus::right) + count_of(marked, LineStatus::right_near) +
-           count_of(marked, LineStatus::right_up_to_constant) +
-           count_of(marked, LineStatus::right_up_to_derivative);
+    return static_cast<std::size_t>(std::count_if(marked.lines.begin(), marked.lines.end(),
+                                                  [](const MarkedLine& line) { return is_right(line.status); }));
 }
 
 std::string words_of_status(const Marked& marked, const MarkedLine& line) {

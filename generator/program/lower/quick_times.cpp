@@ -24,10 +24,6 @@ constexpr long most_evaluations = 300'000;  // about 20 ms
 constexpr std::size_t most_marks = 4096;    // zeros and turning points
 constexpr int halvings = 44;                // enough to get from one of the first pieces to the last digit of t
 
-constexpr unsigned bit(Variable::Kind kind) {
-    return 1U << static_cast<unsigned>(kind);
-}
-
 /// The nodes of the right-hand side and of events that depend only on t and parameters, without t itself.
 std::vector<int> inputs_of(const Program& program) {
     std::vector<int> roots = program.right_hand_side();

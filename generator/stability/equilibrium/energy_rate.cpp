@@ -3,40 +3,16 @@
 
 #include <algorithm>
 
-#include "algebra/symbolic/fourier.hpp"
 #include "algebra/symbolic/functions.hpp"
 #include "algebra/symbolic/impossible.hpp"
 #include "model/parameter_values.hpp"
+#include "stability/equilibrium/loads.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
 
 namespace {
-
-/// The generalized forces, written out; nothing if they are too long or depend on time.
-std::optional<std::vector<ex>> forces_of(const Mechanism& m) {
-    constexpr double largest_tree = 2000;
-    std::vector<ex> result = m.generalized_forces(false);
-    const std::vector<ex> damping = m.generalized_forces(true);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const ex force = result[i] + damping[i];
-        if (m.z->tree_size(force) > largest_tree) return std::nullopt;
-        result[i] = m.z->expand(force);
-        if (result[i].has(m.t)) return std::nullopt;
-    }
-    return result;
-}
-
-/// ∂Q_i/∂q_j = ∂Q_j/∂q_i.
-bool have_potential(const std::vector<ex>& Q, const Mechanism& m) {
-    for (int i = 0; i < m.size(); ++i)
-        for (int j = 0; j < i; ++j) {
-            const auto curl = fourier(Q[i].diff(m.q[j]) - Q[j].diff(m.q[i]), *m.symbols, 500);
-            if (!curl || !is_zero(*curl)) return false;
-        }
-    return true;
-}
 
 /// Each parameter with the sign that it has at these values: 0, or c, or −c for a positive symbol c.
 std::pair<GiNaC::exmap, std::vector<GiNaC::symbol>> signs_in_use(const Mechanism& m,
@@ -77,8 +53,9 @@ EnergyRate energy_rate(const Mechanism& m, const SteadyProblem& problem, const s
                                        [](const Mechanism::Constraint& c) { return c.position.has_value(); });
     if (!m.inputs.empty() || m.has_kicks() || !holonomic || !problem.residuals().rates_are_speeds)
         return EnergyRate::open;
-    const auto Q = forces_of(m);
-    if (!Q) return EnergyRate::open;
+    const auto Q = written_out_loads(m);
+    if (!Q || std::any_of(Q->begin(), Q->end(), [&](const ex& force) { return force.has(m.t); }))
+        return EnergyRate::open;
     GiNaC::exmap still;
     for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
     std::vector<ex> at_rest;

@@ -18,8 +18,9 @@ using Index = Eigen::Index;
 constexpr long double whole_turn = 2 * 3.14159265358979323846264338327950288L;
 constexpr long double free_below = 1e-10L;  // relative to the largest singular value
 constexpr long double beside_root = 1e-3L;  // of a root beside another, in units of the scales
-constexpr long double farther =
-    100;  // times this: beside a root of high multiplicity Newton's method moves no more
+// Times this, a tenth of the scales, a continuum must go on: beside a root of high multiplicity Newton's method
+// moves no more.
+constexpr long double farther = 100;
 constexpr long double direction = 0.1L;  // how far changes of length 1 must differ to be different directions
 constexpr int most_ways = 100;
 constexpr long double arrived = 1e-6L, least_way = 1e-3L, usual_way = 0.25L, straight = 0.3L, bend = 0.1L;
