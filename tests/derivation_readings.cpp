@@ -140,6 +140,20 @@ TEST_CASE("readings: descriptions are no conditions") {
 }
 
 // What is heard in one language is heard in the others.
+// Words that a person writes beside his lines excuse none that is wrong.
+TEST_CASE("readings: ordinary prose hides no wrong line") {
+    for (const char* words :
+         {"If we insert this into Lagrange's equation, we get", "When the bob moves, it obeys",
+          "Assuming no friction at the pivot,", "The pivot is at rest. The equation of motion is",
+          "The bob starts from rest; it obeys", "We do not linearize yet:", "wenn man einsetzt, folgt",
+          "当摆运动时，", "当然，运动方程为", "支座静止。运动方程为",
+          "We choose the angle measured from the equilibrium. Then"}) {
+        CAPTURE(std::string(words));
+        CHECK(statuses(pendulum, std::string(words) + "\n\n$$l\\ddot\\theta - g\\sin\\theta = 0$$") == "M");
+        CHECK(statuses(pendulum, std::string(words) + "\n\n$$m l\\dot\\theta = 0$$") == "M");
+    }
+}
+
 TEST_CASE("readings: words have their twins in three languages") {
     const auto heard = [](bool (*hears)(std::string_view), const std::vector<const char*>& yes,
                           const std::vector<const char*>& no) {
@@ -147,10 +161,21 @@ TEST_CASE("readings: words have their twins in three languages") {
         for (const char* words : no) CHECK_MESSAGE(!hears(words), words);
     };
     heard(states_condition,
-          {"If the hand is at rest (", "Suppose that", "the value at", "Falls", "für", "若手不动（", "当",
-           "如果杆不动，"},
+          {"If the hand is held fixed, ", "When the wedge does not move,", "Wenn der Wagen ruht:", "若手不动，",
+           "如果杆固定，"},
+          {"If we insert this into", "when the bead moves,", "assuming no friction,", "The pivot is at rest.",
+           "当然", "相当于", "wenn man einsetzt:"});
+    heard(begins_condition_of_state,
+          {"If the hand is at rest (", "Suppose that", "the value at", "Falls", "für", "若手不动（", "当"},
           {"The potential energy becomes", "It is known if so. Then", "the equation for this is",
            "取 r 为广义坐标，"});
+    heard(speaks_of_rest, {"At equilibrium", "At rest we have", "静止时", "平衡位置为", "In der Ruhelage gilt"},
+          {"The bob starts from rest.", "measured from the equilibrium", "displacements from equilibrium are",
+           "released at rest"});
+    heard(speaks_of_first_order,
+          {"For small angles", "Linearizing,", "微振动时", "für kleine Winkel",
+           "We do not need more. For small angles"},
+          {"We do not linearize yet", "small oscillations are treated later", "without linearizing"});
     heard(speaks_of_special_motion,
           {"For the conical pendulum", "In steady motion", "das Kegelpendel", "圆锥摆：", "规则进动时"},
           {"a circular hoop", "a massless rod", "the length is constant", "圆环"});

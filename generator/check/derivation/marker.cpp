@@ -98,7 +98,7 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = LineStatus::undecided;
         line.reason = say("it could not be evaluated");
     }
-    weigh_condition(line, lhs);
+    weigh_condition(line, lhs, rhs);
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)

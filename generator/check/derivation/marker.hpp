@@ -77,7 +77,7 @@ private:
     bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
-    bool is_assumption(MarkedLine& line, const Sides& sides) const;
+    bool is_assumption(MarkedLine& line, const Sides& sides);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
@@ -100,7 +100,8 @@ private:
     bool is_value_of_state(const Letter& letter) const;
     bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
-    void weigh_condition(MarkedLine& line, const Math& lhs) const;
+    void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter);
     bool speaks_of_acceleration() const;
@@ -149,9 +150,11 @@ private:
     bool solves_constraints_ = false;  ///< whether its ∂/∂ψ' have been those of the independent rates
     bool goes_on_ = false;             ///< whether the words only join two formulas of one sentence
     bool has_own_gauge_ = false;       ///< whether its L differs from the scene's by a total derivative
-    int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
-    bool is_special_case_ = false;     ///< whether the derivation has set parameters equal, or to numbers
-    std::set<std::string> kept_;       ///< names of constants of the motion that are momenta, or written as such
+    static constexpr int lines_of_condition = 2;  ///< a display ends a sentence without a full stop
+    bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
+    int under_condition_ = 0;                     ///< how many lines the condition that the words state may govern
+    bool is_special_case_ = false;  ///< whether the derivation has set parameters equal, or to numbers
+    std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential

@@ -106,9 +106,7 @@ void Marker::hear(const std::string& words) {
     speaks_of_period_ = says({"period", "Period", "周期"});
     speaks_of_roots_ = says({"with the roots", "其根"});
     goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
-    speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ ||
-                      says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡",
-                            "加速度为零", "Gleichgewicht", "Ruhelage"});
+    speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || alembert::speaks_of_rest(words);
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }
@@ -234,8 +232,8 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (bind_to_part(lone.letter->letter)) return false;
     const ClaimText text = claim_text(rhs, {.letters = letters_});
     if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
-    if (bind_to_scene(line, *lone.letter, rhs, lone.power)) return true;
     if (is_frequency(line, *lone.letter, rhs, lone.power)) return true;
+    if (bind_to_scene(line, *lone.letter, rhs, lone.power)) return true;
     define(line, *lone.letter, rhs, lone.power);
     return true;
 }
@@ -307,7 +305,10 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
             return tell(value, true);
         if (binding.named && !named) named = truth;
     }
-    return named && tell(*named, false);
+    const bool is_constant = std::all_of(text.names.begin(), text.names.end(), [&](const std::string& name) {
+        return letters_.is_of_scene(name) && !letters_.moves(name);
+    });
+    return named && !is_constant && tell(*named, false);  // ω = √(g/l) is no rate of a body
 }
 
 /// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a

@@ -62,7 +62,7 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
 }
 
 /// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
-bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
+bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     const auto is_plain = [&](const Math& math) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
         std::map<Letter, int> all;
@@ -71,7 +71,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
             const std::string name = letters_.name_of(item.first).value_or("");
             return name == "pi" || (letters_.is_of_scene(name) && !letters_.moves(name));
         });
-        const int most_dots = states_condition(statement_->words) ? 2 : 1;  // "if the hand is at rest, h'' = 0"
+        const int most_dots =
+            begins_condition_of_state(statement_->words) ? 2 : 1;  // "if the hand is at rest, h'' = 0"
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
@@ -80,6 +81,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
                            [&](const std::string& name) { return letters_.moves(name); });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
+    if (begins_condition_of_state(statement_->words)) under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
     return true;

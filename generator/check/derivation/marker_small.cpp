@@ -25,6 +25,12 @@ bool holds_letters_only(const std::set<std::string>& names, const Scene& scene) 
     });
 }
 
+bool has_rates(const Math& math) {
+    std::map<Letter, int> all;
+    collect_letters(math, all);
+    return std::any_of(all.begin(), all.end(), [](const auto& item) { return item.second > 0; });
+}
+
 Expression parsed(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     return parse_expression(text, {}, mistakes);
@@ -168,7 +174,7 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
             return true;
         }
     }
-    if (!speaks_of_rest_) return false;
+    if (!speaks_of_rest_ || has_rates(*sides.lhs) || has_rates(*sides.rhs)) return false;  // at rest all vanish
     LineClaim claim = notes_.back().claim;
     claim.at_rest = true;
     if (has_quantities(sides)) return false;

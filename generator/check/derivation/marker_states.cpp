@@ -29,13 +29,12 @@ bool speaks_of_numbered_equations(const std::string& source) {
 
 }  // namespace
 
-/// "Steady motion", "starts from rest": what is said then holds under a condition, until the sentence ends.
+/// "In steady motion", "if the wedge is held": what is said then holds under a condition, until the sentence ends.
 void Marker::hear_conditions(const std::string& words) {
-    constexpr int lines_of_motion = 2, lines_of_start = 4;  // a display ends a sentence without a full stop
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
-    if (speaks_of_special_motion(words) || states_condition(words)) under_condition_ = lines_of_motion;
-    if (speaks_of_start_from_rest(words)) under_condition_ = lines_of_start;
+    if (speaks_of_special_motion(words) || states_condition(words)) under_condition_ = lines_of_condition;
+    from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
 }
 
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
@@ -96,16 +95,30 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     return false;
 }
 
-/// What is a mistake of all motions may hold under the condition that the words state. T and V are what they are
-/// in every state, but not for every value of the parameters.
-void Marker::weigh_condition(MarkedLine& line, const Math& lhs) const {
+/// What is a mistake of all motions may hold under the condition that the words state, or be a constant of the
+/// motion that starts from rest. T and V are what they are in every state, but not for every value of the
+/// parameters.
+void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (line.status != LineStatus::mistake) return;
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !statement_->displayed && system_.mechanism().size() > 1;
-    if (!is_special_case_ && (is_energy || (under_condition_ == 0 && !is_rest_alone))) return;
+    const bool is_excused =
+        is_special_case_ || keeps_its_start(lhs, rhs) || (!is_energy && (under_condition_ > 0 || is_rest_alone));
+    if (!is_excused) return;
     line.status = LineStatus::not_about_scene;
     line.reason = say("the words state a condition for it; lines are judged for all motions");
     line.claim.clear();
+}
+
+/// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
+/// motions.
+bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
+    if (!from_rest_) return false;
+    const Mechanism& m = system_.mechanism();
+    const GiNaC::ex residual =
+        truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
+    if (m.z->depends(residual, m.qddot)) return false;
+    return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
 }
 
 }  // namespace alembert

@@ -53,31 +53,32 @@ bool speaks_of_consequence(std::string_view words) {
         "we find|results in|leads to|then|因此*|所以*|故*|得*|于是*|从而*|即*|also|folglich|daher|somit");
 }
 
-bool speaks_of_first_order(std::string_view words) {
-    return has_phrase(
-        in_lower_case(words),
-        "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
-        "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
-        "near equilibrium|near the equilibrium|about the equilibrium|higher order|higher-order|"
-        "second order terms|quadratic "
-        "terms|小角*|微小*|微振动*|微幅*|很小*|略去高阶*|高阶小量*|一次近似*|小振动*|小摆*|线性化*|小幅*|一阶近似*"
-        "|kleine winkel*|"
-        "kleine auslenkung*|kleine schwingung*");
-}
-
 namespace {
 
-/// Where the last full stop in the words ends; 0 if there is none. "i.e." and "d.h." have none.
+/// Where the sentence that begins at `begin` ends: behind its full stop, or at the end of the words. "i.e." and
+/// "d.h." have none.
+std::size_t end_of_first_sentence(std::string_view words, std::size_t begin) {
+    for (std::size_t at = begin; at < words.size(); ++at) {
+        const std::string_view rest = words.substr(at), before = words.substr(0, at + 1);
+        const bool is_stop = rest.front() == '.' && (rest.size() == 1 || rest[1] == ' ') &&
+                             !before.ends_with("i.e.") && !before.ends_with("d.h.") && !before.ends_with("z.b.") &&
+                             !before.ends_with("z.B.");
+        if (is_stop || rest.starts_with("; ")) return at + 1;
+        for (const std::string_view wide : {"。", "；"})
+            if (rest.starts_with(wide)) return at + wide.size();
+    }
+    return words.size();
+}
+
+/// Where the last sentence that ends in the words does; 0 if none does.
 std::size_t end_of_sentences(std::string_view words) {
     std::size_t end = 0;
-    for (std::size_t at = 0; at < words.size(); ++at) {
-        const std::string_view rest = words.substr(at);
-        const std::string_view before = words.substr(0, at + 1);
-        const bool is_stop = rest.front() == '.' && (rest.size() == 1 || rest[1] == ' ') &&
-                             !before.ends_with("i.e.") && !before.ends_with("d.h.") && !before.ends_with("z.B.");
-        if (is_stop || rest.starts_with("; ")) end = at + 1;
-        for (const std::string_view wide : {"。", "；"})
-            if (rest.starts_with(wide)) end = at + wide.size();
+    while (end < words.size()) {
+        const std::size_t next = end_of_first_sentence(words, end);
+        const std::string_view last = words.substr(end, next - end);
+        if (next == words.size() && !last.ends_with('.') && !last.ends_with("。") && !last.ends_with("；")) break;
+        if (next == words.size() && (last.ends_with("i.e.") || last.ends_with("d.h."))) break;
+        end = next;
     }
     return end;
 }
@@ -87,6 +88,27 @@ std::string last_sentence(std::string_view words) {
 }
 
 }  // namespace
+
+bool speaks_of_first_order(std::string_view words) {
+    // "We do not linearize yet", "small oscillations are treated later"
+    static constexpr std::string_view denials = "not|without|later|nicht|ohne|später|不必*|无需*|不作*|以后*";
+    static constexpr std::string_view phrases =
+        "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
+        "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
+        "near equilibrium|near the equilibrium|about the equilibrium|higher order|higher-order|"
+        "second order terms|quadratic "
+        "terms|小角*|微小*|微振动*|微幅*|很小*|略去高阶*|高阶小量*|一次近似*|小振动*|小摆*|线性化*|小幅*|一阶近似*"
+        "|kleine winkel*|"
+        "kleine auslenkung*|kleine schwingung*";
+    const std::string lower = in_lower_case(words);
+    for (std::size_t begin = 0; begin < lower.size();) {
+        const std::size_t end = end_of_first_sentence(lower, begin);
+        const std::string sentence = lower.substr(begin, end - begin);
+        if (has_phrase(sentence, phrases) && !has_phrase(sentence, denials)) return true;
+        begin = end;
+    }
+    return false;
+}
 
 bool ends_sentence(std::string_view words) {
     return end_of_sentences(words) > 0;
@@ -99,13 +121,22 @@ bool joins_formulas(std::string_view words) {
 
 bool states_condition(std::string_view words) {
     const std::string sentence = last_sentence(words);
-    if (has_phrase(sentence,
-                   "if|when|whenever|suppose|assum*|in the limit|in the case|special case*|falls|wenn|"
-                   "im grenzfall|若*|当*|如果*|假设*|极限*|特殊情形*"))
-        return true;
+    const bool is_conditional = has_phrase(
+        sentence,
+        "if|when|whenever|suppose|for|with|in the limit|in the case|falls|wenn|bei|für|若*|如果*|假设*|当");
+    const bool holds_something = has_phrase(sentence,
+                                            "is fixed|held|held fast|does not move|does not turn|is at rest|is "
+                                            "stationary|vanishes|at the constant rate|"
+                                            "festgehalten|ruht|steht still|不动*|固定*|保持静止*|为零*");
+    return is_conditional && holds_something;
+}
+
+bool begins_condition_of_state(std::string_view words) {
+    const std::string sentence = last_sentence(words);
+    if (has_phrase(sentence, "if|when|whenever|suppose|falls|wenn|若*|如果*|假设*")) return true;
     const std::size_t end = sentence.find_last_not_of(" (");
     const std::string_view before = std::string_view(sentence).substr(0, end == std::string::npos ? 0 : end + 1);
-    static constexpr std::string_view last[] = {"at", "for", "bei", "für", "在", "对于"};
+    static constexpr std::string_view last[] = {"at", "for", "bei", "für", "在", "对于", "当"};
     return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
         if (!before.ends_with(word)) return false;
         const std::size_t begin = before.size() - word.size();
@@ -114,11 +145,24 @@ bool states_condition(std::string_view words) {
 }
 
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(
-        last_sentence(words),
-        "steady motion*|steady precession|steady rotation|steady state|stationary motion*|regular precession|"
-        "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
-        "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
+    return has_phrase(last_sentence(words),
+                      "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
+                      "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
+                      "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
+}
+
+bool speaks_of_rest(std::string_view words) {
+    const std::string sentence = last_sentence(words);
+    const bool is_of_start =
+        has_phrase(sentence, "start*|initially|released|remains|stays|not at rest|从静止*|静止开始*|初始*");
+    const bool is_of_place =
+        has_phrase(sentence,
+                   "from the equilibrium*|from equilibrium|measured*|displacement*|deviation*|about the "
+                   "equilibrium*|near*|为原点*|起*|偏离*|gemessen*|auslenkung*");
+    return !is_of_start && !is_of_place &&
+           has_phrase(sentence,
+                      "at rest|equilibri*|accelerations zero|静止*|平衡*|加速度为零*|im gleichgewicht|"
+                      "gleichgewichtslage*|ruhelage*");
 }
 
 bool speaks_of_start_from_rest(std::string_view words) {

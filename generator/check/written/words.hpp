@@ -17,9 +17,16 @@ bool speaks_of_consequence(std::string_view words);
 /// "small angles", "linearize", "first order".
 bool speaks_of_first_order(std::string_view words);
 
-/// "if …", "when the hand is at rest", or "at", "for" just before the formula: what the last sentence says holds
-/// under a condition.
+/// "If the wedge is held", "for a cart that does not move": what the last sentence says holds for a part of the
+/// motions. "When the bead moves", "if we insert" are no conditions.
 bool states_condition(std::string_view words);
+
+/// "if", "at", "for" before a formula: if that describes a state, what follows holds there.
+bool begins_condition_of_state(std::string_view words);
+
+/// "at rest", "in equilibrium": the last sentence speaks of states of rest, and not of a start or of a place from
+/// which something is measured.
+bool speaks_of_rest(std::string_view words);
 
 /// "steady motion", "conical pendulum": the motions of which the last sentence speaks are special ones.
 bool speaks_of_special_motion(std::string_view words);
