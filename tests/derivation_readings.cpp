@@ -139,6 +139,78 @@ TEST_CASE("readings: descriptions are no conditions") {
     CHECK(statuses(pendulum, "Take $V = 0$ at $\\theta = 0$, so $V = mgl(1+\\cos\\theta)$.") == "--M");
 }
 
+TEST_CASE("readings: virtual displacements, those of places and those that constraints allow") {
+    const std::string places = "$$x = l\\sin\\theta,\\quad y=-l\\cos\\theta$$\n";
+    CHECK(statuses(pendulum, places + "$$\\delta x = l\\cos\\theta\\,\\delta\\theta$$\n"
+                                      "$$\\delta W = -mg\\,\\delta y = -mgl\\sin\\theta\\,\\delta\\theta$$\n"
+                                      "$$-m\\ddot x\\,\\delta x - (m\\ddot y + mg)\\,\\delta y = 0$$") ==
+          "RRRRRR");
+    CHECK(statuses(pendulum, places + "$$\\delta x = -l\\cos\\theta\\,\\delta\\theta$$") == "RRM");
+    CHECK(statuses(pendulum, places + "$$-m\\ddot x\\,\\delta x - (m\\ddot y - mg)\\,\\delta y = 0$$") == "RRM");
+    CHECK(statuses(pendulum, places + "$$\\delta W = mg\\,\\delta y$$") == "RRM");
+    CHECK(statuses(pendulum, "$$\\delta V = m g l\\sin\\theta\\,\\delta\\theta$$\n$$\\sum\\delta W = 0$$") ==
+          "R-");
+    CHECK(statuses(pendulum, "$$(m l^2\\ddot\\theta + m g l\\sin\\theta)\\,\\delta\\theta = 0$$") == "R");
+    const std::string bound = test::textbook_text("cartesian_pendulum");
+    CHECK(statuses(bound, "$$m\\ddot x\\,\\delta x + (m\\ddot y + mg)\\,\\delta y = 0$$") == "R");
+    CHECK(statuses(bound, "$$m\\ddot x\\,\\delta x + (m\\ddot y - mg)\\,\\delta y = 0$$") == "M");
+    CHECK(statuses(bound, "$$x\\,\\delta x + y\\,\\delta y = 0$$") == "R");
+    CHECK(statuses(bound, "$$x\\,\\delta y + y\\,\\delta x = 0$$") == "M");
+}
+
+TEST_CASE("readings: what plain TeX writes, and rows whose ends were lost") {
+    CHECK(statuses(pendulum, "$p_\\theta = {\\partial L \\over \\partial \\dot\\theta} = m l^2\\dot\\theta$") ==
+          "RR");
+    CHECK(statuses(pendulum,
+                   "$${d \\over dt}{\\partial L \\over \\partial{\\dot\\theta}} = m l^2\\ddot\\theta$$") == "R");
+    CHECK(statuses(pendulum, "$$\\dot\\theta = \\sqrt{p_\\theta^2 \\over m^2 l^4} \\over 1$$") == "-");
+    CHECK(statuses(pendulum, "$$T = \\frac12 m l^2\\dot\\theta^2\nV = -m g l\\cos\\theta$$") == "RR");
+    CHECK(statuses(pendulum, "$$T = \\frac12 m\nl^2\\dot\\theta^2$$") == "R");
+    CHECK(statuses(pendulum,
+                   "$$\\begin{pmatrix} T = \\frac12 m l^2\\dot\\theta^2 \\\\ V = m g l\\cos\\theta "
+                   "\\end{pmatrix}$$") == "RM");
+    CHECK(statuses(pendulum, "\\[ L = T - V = \\]\n\\[ = \\frac12 m l^2\\dot\\theta^2 + m g l\\cos\\theta \\]") ==
+          "RR");
+    CHECK(statuses(pendulum, "$H = \\frac{p^2}{2 m l^2} - m g l\\cos\\theta$") == "R");
+    CHECK(statuses(pendulum, "$H = \\frac{p^2}{2 m l} - m g l\\cos\\theta$") != "R");
+}
+
+TEST_CASE("readings: a law before its force, the author's own H, and velocities put into T") {
+    CHECK(statuses(pendulum,
+                   "$$\\frac{d}{dt}\\frac{\\partial T}{\\partial\\dot\\theta} - \\frac{\\partial "
+                   "T}{\\partial\\theta} = Q_\\theta$$\n\n$$Q_\\theta = -mgl\\sin\\theta$$") == "RR");
+    CHECK(statuses(pendulum,
+                   "$$\\frac{d}{dt}\\frac{\\partial T}{\\partial\\dot\\theta} - \\frac{\\partial "
+                   "T}{\\partial\\theta} = Q_\\theta$$\n\n$$Q_\\theta = mgl\\sin\\theta$$") == "RM");
+    CHECK(statuses(pendulum,
+                   "$$H = \\frac{p_\\theta^2}{2m} - mgl\\cos\\theta$$\n$$\\dot\\theta = \\frac{\\partial "
+                   "H}{\\partial p_\\theta} = \\frac{p_\\theta}{m}$$") == "MRF");
+    CHECK(statuses(pendulum,
+                   "$x_b = l\\sin\\theta$, $y_b = -l\\cos\\theta$\n\n$\\dot x_b = l\\dot\\theta\\sin\\theta$, "
+                   "$\\dot y_b = l\\dot\\theta\\sin\\theta$\n\n$T = m l^2\\dot\\theta^2\\sin^2\\theta$") ==
+          "RRMRF");
+    CHECK(statuses(pendulum, "$v^2 = l\\dot\\theta^2$, so $T = \\frac12 m l\\dot\\theta^2$") == "MF");
+    CHECK(statuses(pendulum, "$v^2 = l\\dot\\theta^2$, so $T = \\frac13 m l\\dot\\theta^2$") == "-M");
+    CHECK(statuses(pendulum,
+                   "$$L' = \\frac12 m l^2\\dot\\theta^2 + m g l\\cos\\theta + \\frac{d}{dt}(\\theta^2)$$") == "R");
+    CHECK(statuses(pendulum, "$$L' = \\frac12 m l^2\\dot\\theta^2 - m g l\\cos\\theta$$") == "M");
+}
+
+TEST_CASE("readings: rates just after an impact") {
+    const std::string rods = test::textbook_text("struck_rods");
+    CHECK(statuses(rods,
+                   "碰撞结束时\n\n$$\\dot\\theta_1 = \\frac{3S}{7ml},\\quad \\dot\\theta_2 = \\frac{6S}{7ml}$$") ==
+          "RR");
+    CHECK(statuses(rods, "Just after the impact $$\\dot\\theta_1 = \\frac{3S}{8ml}$$") == "M");
+    CHECK(statuses(rods, "$$\\dot\\theta_1 = \\frac{3S}{7ml}$$") == "M");
+}
+
+TEST_CASE("readings: a mass centre is no particle whose name has the same initial") {
+    const std::string cart = test::textbook_text("cart_rod");
+    CHECK(statuses(cart, "$x_C = x + l\\sin\\varphi$") == "R");
+    CHECK(statuses(cart, "$x_G = x + l\\sin\\varphi$, $y_G = -l\\cos\\varphi$") == "RR");
+}
+
 // What is heard in one language is heard in the others.
 // Words that a person writes beside his lines excuse none that is wrong.
 TEST_CASE("readings: ordinary prose hides no wrong line") {

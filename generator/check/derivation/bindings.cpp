@@ -16,12 +16,19 @@ struct Place3 {
     bool named = false;
 };
 
+/// x_C, y_G, r_{cm}: of a mass centre.
+bool is_of_mass_centre(const std::string& index) {
+    static constexpr const char* indices[] = {"C", "G", "S", "cm", "CM", "com", "COM"};
+    return std::find(std::begin(indices), std::end(indices), index) != std::end(indices);
+}
+
 /// Does the index name the k-th thing of this name?
 bool names(const std::string& index, const std::string& name, std::size_t k) {
     const std::string word = plain_word(index);
     if (word.empty()) return false;
     const std::string full = plain_word(name);
-    return word == full || word == std::to_string(k + 1) || (!full.empty() && full.substr(0, 1) == word) ||
+    const bool is_initial = !full.empty() && full.substr(0, 1) == word && !is_of_mass_centre(index);
+    return word == full || word == std::to_string(k + 1) || is_initial ||
            (full.size() > 1 && full.substr(1) == word);
 }
 
@@ -53,7 +60,10 @@ std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
     std::vector<std::string> points;
     for (const Point& p : scene.points) points.push_back(p.name.text);
     const std::vector<Place3> others = matching(points, index);
-    if (!plain_word(index).empty() && !others.empty() && others[0].named) return others;
+    const bool is_named =
+        std::any_of(points.begin(), points.end(),
+                    [&, k = std::size_t{0}](const auto& name) mutable { return names(index, name, k++); });
+    if (is_named) return others;
     for (Place3 other : others) {
         other.named = false;
         result.push_back(other);
@@ -83,8 +93,8 @@ constexpr const char* axis_names[] = {"ex", "ey", "ez"};
 
 void add_component(std::vector<Binding>& to, const Place3& point, const char* vector, int axis) {
     const std::string text = fmt::format("dot({}({}),{}(N))", vector, point.name, axis_names[axis]);
-    to.push_back({.text = text, .named = point.named, .reversed = false});
-    to.push_back({.text = "-" + text, .named = point.named, .reversed = true});
+    to.push_back({.text = text, .named = point.named, .reversed = false, .point = point.name});
+    to.push_back({.text = "-" + text, .named = point.named, .reversed = true, .point = point.name});
 }
 
 /// ω_x^{body A}, the component along an axis of the body.
@@ -121,7 +131,8 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
                 add_component(result, point, vector, component);
             else
                 result.push_back({.text = fmt::format("sqrt(dot({0}({1}),{0}({1})))", vector, point.name),
-                                  .named = point.named});
+                                  .named = point.named,
+                                  .point = point.name});
         }
     std::vector<std::string> bodies;
     for (const Body& b : scene.bodies) bodies.push_back(b.name.text);
@@ -145,7 +156,7 @@ std::vector<VectorBinding> vector_bindings_of(const Letter& letter, const Scene&
                                                                                                         : nullptr;
     if (vector == nullptr) return result;
     for (const Place3& point : points_for(letter.index, scene)) {
-        VectorBinding binding{.component = {}, .named = point.named};
+        VectorBinding binding{.component = {}, .named = point.named, .point = point.name};
         for (int axis = 0; axis < 3; ++axis)
             binding.component[axis] = fmt::format("dot({}({}),{}(N))", vector, point.name, axis_names[axis]);
         result.push_back(std::move(binding));

@@ -22,6 +22,7 @@ struct Binding {
     bool named = false;     ///< whether the index names the point or body, or there is only one
     bool spoken = false;    ///< whether the words before it speak of its body
     bool reversed = false;  ///< whether the axis points the other way: y downwards for y upwards
+    std::string point{};    ///< of a place or velocity: the particle, body or point
 };
 
 std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene);
@@ -30,6 +31,7 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene);
 struct VectorBinding {
     std::string component[3];
     bool named = false;
+    std::string point{};
 };
 std::vector<VectorBinding> vector_bindings_of(const Letter& letter, const Scene& scene);
 

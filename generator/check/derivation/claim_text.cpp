@@ -272,17 +272,36 @@ private:
         out() += ')';
     }
 
+    /// δθ as its value, δx of a place x as Σ ∂x/∂q δq.
     void variation(const Math& math) {
         const Math& of = *math.args[0];
-        if (how_.displacements != nullptr && of.kind == Kind::letter)
-            if (const auto known = how_.letters.name_of(of.letter))
-                if (const auto value = how_.displacements->find(*known); value != how_.displacements->end()) {
-                    out() += std::to_string(value->second);
-                    return;
-                }
-        refuse(
-            math,
-            say("a virtual displacement has a meaning in the virtual work only, for a coordinate of the scene"));
+        if (how_.displacements == nullptr || moves_in_time(of))
+            refuse(math, say("a virtual displacement has a meaning for coordinates and places only"));
+        if (of.kind == Kind::letter)
+            if (const auto value = how_.displacements->find(name(of, false)); value != how_.displacements->end()) {
+                out() += value->second;
+                return;
+            }
+        const ClaimText text = claim_text(of, {.letters = how_.letters});
+        result_.names.insert(text.names.begin(), text.names.end());
+        std::string terms;
+        for (const auto& [coordinate, value] : *how_.displacements)
+            if (value != "0")
+                terms +=
+                    (terms.empty() ? "" : " + ") + fmt::format("diff({},{})*{}", text.text, coordinate, value);
+        out() += terms.empty() ? "0" : '(' + terms + ')';
+    }
+
+    /// Whether rates stand in it, or T and L, which hold some.
+    bool moves_in_time(const Math& math) const {
+        std::map<Letter, int> all;
+        collect_letters(math, all);
+        return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+            const auto quantity = quantity_of(item.first);
+            const auto known = how_.letters.name_of(item.first);
+            const bool is_own = quantity && known && !how_.letters.is_of_scene(*known);
+            return item.second > 0 || (is_own && *quantity != MechanicalQuantity::potential);
+        });
     }
 
     void quantity(const Math& math) {

@@ -42,8 +42,9 @@ struct ClaimWriting {
     const Letters& letters;
     /// Expressions that the derivation has written out itself, by their text: "diff(L,theta')" → "step_3".
     const std::map<std::string, std::string>* steps = nullptr;
-    /// Values of virtual displacements, by coordinate: δθ is 1 or 0. Null where they have no meaning.
-    const std::map<std::string, int>* displacements = nullptr;
+    /// Values of the virtual displacements of all coordinates, with which δx is Σ ∂x/∂q δq. Null where they have
+    /// no meaning.
+    const std::map<std::string, std::string>* displacements = nullptr;
     /// For each generalized speed, and for each independent rate as "psi'", the rates that change with it, with
     /// the names of ∂q'/∂u.
     const std::map<std::string, std::vector<std::pair<std::string, std::string>>>* speeds = nullptr;

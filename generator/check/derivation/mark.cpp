@@ -44,6 +44,15 @@ bool is_right(LineStatus status) {
            status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative;
 }
 
+bool is_worse(LineStatus status, LineStatus than) {
+    static constexpr LineStatus from_worst[] = {LineStatus::mistake, LineStatus::undecided, LineStatus::unfounded,
+                                                LineStatus::follows};
+    const auto rank = [&](LineStatus one) {
+        return std::find(std::begin(from_worst), std::end(from_worst), one) - std::begin(from_worst);
+    };
+    return rank(status) < rank(than);
+}
+
 Marked mark(Scene scene, Written written, const MarkOptions& options) {
     DerivedSystem derived{std::move(scene), options.by};
     return mark(derived, std::move(written), options);

@@ -35,6 +35,9 @@ enum class LineStatus {
 /// Right in one of its senses.
 bool is_right(LineStatus status);
 
+/// Of the parts of a line the worse one is told: a mistake before what is undecided.
+bool is_worse(LineStatus status, LineStatus than);
+
 /// "right_up_to_constant": as JSON has it.
 const char* name_of(LineStatus status);
 

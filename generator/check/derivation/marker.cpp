@@ -14,14 +14,6 @@ namespace alembert {
 using GiNaC::ex;
 using Kind = Math::Kind;
 
-namespace {
-
-bool is_virtual_work(const Math& math) {
-    return math.kind == Kind::variation && math.args[0]->kind == Kind::letter && math.args[0]->letter.base == "W";
-}
-
-}  // namespace
-
 std::set<std::string> Marker::Sides::own_names() const {
     std::set<std::string> result = own_left.names;
     result.insert(own_right.names.begin(), own_right.names.end());
@@ -90,6 +82,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     speaks_of_small_ = speaks_of_small_ || statement_->relations[k] == Relation::approximately;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
+        if (line.status == LineStatus::mistake) is_of_authors_function(line, lhs, rhs);
     } catch (const NoMeaning& not_understood) {
         const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
         line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
@@ -126,7 +119,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         at_rest_of_rates_ = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
         return;
     }
-    if (is_virtual_work(lhs)) return judge_work(line, rhs);
+    if (judge_virtual(line, lhs, rhs)) return;
     if (is_of_state(line, lhs, rhs)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
@@ -148,6 +141,7 @@ Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
 ClaimWriting Marker::as_written() const {
     return {.letters = letters_,
             .steps = &held_,
+            .displacements = displacements_,
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds};
@@ -156,6 +150,7 @@ ClaimWriting Marker::as_written() const {
 ClaimWriting Marker::as_derived() const {
     return {.letters = letters_,
             .steps = &own_.steps(),
+            .displacements = displacements_,
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds};
@@ -183,6 +178,20 @@ void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
         judge_false(line, sides, row);
 }
 
+/// q' = ∂H/∂p, p' = −∂H/∂q: true of the scene's H whatever the author has found it to be.
+bool Marker::is_law_of_hamilton(const Sides& sides) const {
+    const auto is_slope = [&](const Math& side) {
+        const Math& inner = side.kind == Kind::negate ? *side.args[0] : side;
+        return inner.kind == Kind::partial && inner.args[0]->kind == Kind::letter &&
+               letters_.name_of(inner.args[0]->letter) == letters_.name_of(MechanicalQuantity::hamiltonian);
+    };
+    const auto is_rate = [](const Math& side) {
+        return (side.kind == Kind::letter && side.dots == 1) ||
+               (side.kind == Kind::rate && side.dots == 1 && side.args[0]->kind == Kind::letter);
+    };
+    return (is_slope(*sides.lhs) && is_rate(*sides.rhs)) || (is_rate(*sides.lhs) && is_slope(*sides.rhs));
+}
+
 /// d/dt ∂L/∂q' = ∂L/∂q is right, and gives no equation of motion that is written out.
 bool Marker::repeats_law(const Sides& sides) const {
     const auto is_law = [&](const std::string& name) {
@@ -206,6 +215,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     MotionRows& rows = system_.rows();
     const bool is_identity = rows.is_identity(row) == true;
     const MotionRow own = rows.row(own_residual(sides));
+    if (is_law_of_hamilton(sides)) return;
     if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
     const bool founded =
@@ -217,7 +227,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_own_gauge(line, sides)) return;
+    if (is_of_own_gauge(line, sides) || holds_after_impact(line, sides)) return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_equilibrium(line, sides) ||
         is_given_value(line, sides) || is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
         holds_up_to(line, sides, row.residual) || holds_at_rest(line, sides) ||
@@ -243,48 +253,6 @@ bool Marker::follows(MarkedLine& line, const Sides& sides) {
     line.status = LineStatus::follows;
     line.reason = say("it follows from line {}", lines[*line.follows_from].line);
     return true;
-}
-
-/// δW = Σ Q_q δq: one claim for each coordinate.
-void Marker::judge_work(MarkedLine& line, const Math& rhs) {
-    const Mechanism& m = system_.mechanism();
-    std::vector<std::string> texts;
-    std::vector<ex> own, truth;
-    for (int i = -1; i < m.size(); ++i) {  // −1: without displacements there is no work
-        std::map<std::string, int> displacements;
-        for (int j = 0; j < m.size(); ++j) displacements[m.q[j].get_name()] = i == j ? 1 : 0;
-        const ClaimText text = claim_text(rhs, {.letters = letters_, .displacements = &displacements});
-        if (i < 0) {
-            if (!truth_.value(text.text).is_zero())
-                throw NoMeaning{.reason = say("each term of a virtual work holds one virtual displacement")};
-            continue;
-        }
-        texts.push_back(text.text);
-        truth.push_back(truth_.value(text.text));
-        own.push_back(own_.value(text.text));
-    }
-    MotionRows& rows = system_.rows();
-    const auto first_wrong = [&](bool all) -> std::optional<std::size_t> {
-        const std::vector<ex> forces = system_.forces(all);
-        for (std::size_t i = 0; i < truth.size(); ++i)
-            if (rows.is_identity(rows.row(truth[i] - forces[i])) != true) return i;
-        return std::nullopt;
-    };
-    std::optional<std::size_t> wrong = first_wrong(all_forces_);
-    if (wrong && !first_wrong(!all_forces_)) {
-        use_all_forces(!all_forces_);
-        wrong.reset();
-    }
-    line.status = wrong ? LineStatus::mistake : LineStatus::right;
-    const std::string name = "Q_" + m.q[wrong ? static_cast<int>(*wrong) : 0].get_name();
-    const std::string& text = texts[wrong.value_or(0)];
-    line.claim = name + " = " + text;
-    notes_.back().claim = {.lhs = name, .rhs = text};
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const std::string force = "Q_" + m.q[i].get_name();
-        const bool same = rows.is_identity(rows.row(own[i] - truth_.value(force))) == true;
-        own_.state(force, own[i], same ? std::nullopt : std::optional(lines.size()));
-    }
 }
 
 }  // namespace alembert

@@ -63,7 +63,9 @@ private:
     void line(std::size_t statement, std::size_t side);
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs);
     void judge_work(MarkedLine& line, const Math& rhs);
+    bool judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs);
     Sides sides_of(const Math& lhs, const Math& rhs) const;
     ClaimWriting as_written() const;
     ClaimWriting as_derived() const;
@@ -103,9 +105,15 @@ private:
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
-    bool bind_to_part(const Letter& letter);
+    bool bind_to_part(const Letter& letter, const Math* value = nullptr);
+    void count_velocity(const Letter& letter, int dots, const std::string& text);
+    bool bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool holds_after_impact(MarkedLine& line, const Sides& sides);
+    bool is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool speaks_of_acceleration() const;
     std::optional<GiNaC::ex> force_along_speed(const Letter& letter) const;
+    std::optional<GiNaC::ex> other_force(const Letter& letter, const Math& value,
+                                         const std::optional<GiNaC::ex>& force);
     void know_speed(const std::string& key, const std::vector<GiNaC::ex>& slopes);
     bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
@@ -123,6 +131,7 @@ private:
     bool has_several_unknown(const Math& lhs, const Math& rhs) const;
     bool has_quantities(const Sides& sides) const;
     bool repeats_law(const Sides& sides) const;
+    bool is_law_of_hamilton(const Sides& sides) const;
     bool speaks_of_quantity(const LineNotes& notes) const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
     void name_held(MarkedLine& line) const;
@@ -138,12 +147,17 @@ private:
     std::map<Letter, Components> vectors_;    ///< letters that are vectors, with the letters of their components
     std::vector<LineNotes> notes_;            ///< one for each line
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> speeds_;  ///< as in ClaimWriting
-    std::set<Letter> ahead_;    ///< letters that a later line introduces, and that were used before it
+    std::set<Letter> ahead_;  ///< letters that a later line introduces, and that were used before it
+    struct Motion {
+        std::string point;
+        bool is_velocity;
+    };
+    std::map<Letter, Motion> motions_;  ///< letters that are places and velocities
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
          speaks_of_period_ = false, speaks_of_roots_ = false, introduces_symbols_ = false,
-         speaks_of_gibbs_ = false;
+         speaks_of_gibbs_ = false, speaks_of_impact_ = false;
     const WrittenStatement* statement_ = nullptr;
     std::optional<BaseState> near_;    ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;     ///< whether the derivation has begun to linearize
@@ -155,6 +169,7 @@ private:
     int under_condition_ = 0;                     ///< how many lines the condition that the words state may govern
     bool is_special_case_ = false;  ///< whether the derivation has set parameters equal, or to numbers
     std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
+    const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential

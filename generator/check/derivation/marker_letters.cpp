@@ -165,12 +165,13 @@ bool Marker::introduce_ahead(const Letter& letter) {
 }
 
 /// T of one body, V of gravity: what the scene has a part for. In an equation of motion T_1 is a force.
-bool Marker::bind_to_part(const Letter& letter) {
+bool Marker::bind_to_part(const Letter& letter, const Math* value) {
     const bool of_motion = speaks_of_acceleration();
     const bool starred = letter.raised == "*" || letter.base == "F" || letter.base == "E";
     if (of_motion && !starred) return false;
     std::optional<ex> part = part_named(letter, letters_, system_);
     if (!part) part = force_along_speed(letter);
+    if (value != nullptr && letter.base == "F" && letter.raised.empty()) part = other_force(letter, *value, part);
     if (!part) return false;
     const std::string name = bind(letter, *part);
     const bool of_force = letter.base == "Q" && !letter.raised.empty() && letter.raised != "*";
@@ -181,6 +182,17 @@ bool Marker::bind_to_part(const Letter& letter) {
                                                    : "";
     if (!whole.empty()) own_.count_as_part(name, whole, *part);
     return true;
+}
+
+/// F_θ = 0 is of the forces that are not in V if that is what makes it right.
+std::optional<ex> Marker::other_force(const Letter& letter, const Math& value, const std::optional<ex>& force) {
+    const std::string along = letters_.coordinate_of(letter.index);
+    const Mechanism& m = system_.mechanism();
+    const std::vector<ex> others = system_.forces(false);
+    const ex stated = truth_.value(claim_text(value, {.letters = letters_}).text);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        if (along == m.q[i].get_name() && is_identically_zero(m.z->name(stated - others[i]), m)) return others[i];
+    return force;
 }
 
 /// F_u = Σ F_q ∂q'/∂u, F*_u likewise: forces along a generalized speed, or along a rate when the constraints have
@@ -229,7 +241,7 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
         if (lone.power == 1 && speaks_of_angular_momentum(statement_->words)) hold_against_momenta(line, rhs);
         return true;
     }
-    if (bind_to_part(lone.letter->letter)) return false;
+    if (bind_to_part(lone.letter->letter, &rhs)) return false;
     const ClaimText text = claim_text(rhs, {.letters = letters_});
     if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
     if (is_frequency(line, *lone.letter, rhs, lone.power)) return true;
@@ -282,12 +294,15 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
     const ex value = truth_.value(text.text);
     MotionRows& rows = system_.rows();
     std::optional<ex> named;
-    const auto tell = [&](const ex& truth, bool right) {
+    std::string point;
+    const auto tell = [&](const ex& truth, const std::string& point, bool right) {
         const ex stated = own_.value(own.text);
         roaming_.insert(letter.letter);
         const std::string name = bind(letter.letter, truth);
         own_.state(name, GiNaC::pow(stated, GiNaC::numeric(1, power)),
                    right ? std::nullopt : std::optional(lines.size()));
+        motions_[letter.letter] = {point, letter.letter.base == "v"};
+        if (!right) count_velocity(letter.letter, letter.dots, name);
         line.status = right ? LineStatus::right : LineStatus::mistake;
         const std::string left = power == 1 ? name : name + "^2";
         line.claim = left + " = " + text.text;
@@ -299,16 +314,32 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         const ex here = truth_.value(binding.text),
                  truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
-        if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
+        if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, binding.point, true);
         const bool is_size = power == 1 && binding.text.starts_with("sqrt(");  // v = l θ' has a sign
         if (is_size && rows.is_identity(rows.row(GiNaC::pow(truth, 2) - GiNaC::pow(value, 2))) == true)
-            return tell(value, true);
-        if (binding.named && !named) named = truth;
+            return tell(value, binding.point, true);
+        if (binding.named && !named) named = truth, point = binding.point;
     }
     const bool is_constant = std::all_of(text.names.begin(), text.names.end(), [&](const std::string& name) {
         return letters_.is_of_scene(name) && !letters_.moves(name);
     });
-    return named && !is_constant && tell(*named, false);  // ω = √(g/l) is no rate of a body
+    return named && !is_constant && tell(*named, point, false);  // ω = √(g/l) is no rate of a body
+}
+
+/// What the derivation says of a velocity counts in the kinetic energy of its mass.
+void Marker::count_velocity(const Letter& letter, int dots, const std::string& text) {
+    const auto found = motions_.find(letter);
+    if (found == motions_.end() || dots != (found->second.is_velocity ? 0 : 1)) return;
+    const auto count = [&](const auto& masses) {
+        for (const auto& mass : masses)
+            if (mass.name.text == found->second.point)
+                own_.count_as_velocity(
+                    text,
+                    truth_.value(*letters_.name_of(letter) + std::string(static_cast<std::size_t>(dots), '\'')),
+                    truth_.value(mass.mass));
+    };
+    count(system_.scene().particles);
+    count(system_.scene().bodies);
 }
 
 /// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a
@@ -318,6 +349,7 @@ bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, co
         judge(line, lhs, rhs, Relation::equal);
         return true;
     }
+    if (bind_to_momentum(line, lhs, rhs, letter)) return true;
     const Letters before = letters_;
     for (const Binding& binding : bindings(letter)) {
         const std::string name = bind(letter, truth_.value(binding.text));
@@ -336,6 +368,24 @@ bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, co
         letters_ = before;
     }
     return determine(line, lhs, rhs, letter);
+}
+
+/// H = p²/(2 m l²) + V of one coordinate: p is its momentum if that makes the line right.
+bool Marker::bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    if (letter != Letter{.base = "p"} || letters_.coordinates().size() != 1) return false;
+    const Letters before = letters_;
+    letters_.bind(letter, "p_" + letters_.coordinates()[0]);
+    try {
+        const Sides sides = sides_of(lhs, rhs);
+        MotionRows& rows = system_.rows();
+        if (rows.holds(rows.row(truth_.value(sides.left.text) - truth_.value(sides.right.text))) == true) {
+            judge_pair(line, lhs, rhs);
+            return true;
+        }
+    } catch (const NoMeaning&) {  // another letter is not known either
+    }
+    letters_ = before;
+    return false;
 }
 
 /// M x'' = F + S sin θ determines S. What follows must agree with it.

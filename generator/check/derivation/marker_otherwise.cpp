@@ -168,4 +168,23 @@ bool Marker::is_of_own_gauge(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// L' = L + d/dt f: a prime that makes another Lagrangian, and no rate.
+bool Marker::is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const bool may_be = lhs.kind == Kind::letter && lhs.dots == 1 &&
+                        letters_.name_of(lhs.letter) == letters_.name_of(MechanicalQuantity::lagrangian);
+    if (!may_be) return false;
+    Math plain = lhs;
+    plain.dots = 0;
+    MarkedLine other = line;
+    other.status = LineStatus::undecided;
+    LineNotes before = notes_.back();
+    judge_pair(other, plain, rhs);
+    if (!is_right(other.status)) {
+        notes_.back() = std::move(before);
+        return false;
+    }
+    line = std::move(other);
+    return true;
+}
+
 }  // namespace alembert

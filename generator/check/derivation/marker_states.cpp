@@ -34,6 +34,7 @@ void Marker::hear_conditions(const std::string& words) {
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
     if (speaks_of_special_motion(words) || states_condition(words)) under_condition_ = lines_of_condition;
+    speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(words);
     from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
 }
 
@@ -119,6 +120,27 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
         truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
     if (m.z->depends(residual, m.qddot)) return false;
     return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
+}
+
+/// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.
+bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
+    if (!speaks_of_impact_ || system_.scene().impulses.empty() || has_quantities(sides) ||
+        is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
+        return false;
+    LineClaim claim = notes_.back().claim;
+    claim.at_impact = true;
+    Verdict verdict;
+    try {
+        verdict = system_.check({claim}, known_)[0].verdict;
+    } catch (const std::exception&) {
+        return false;
+    }
+    notes_.back().claim = claim;
+    line.status = verdict == Verdict::proved    ? LineStatus::right
+                  : verdict == Verdict::refuted ? LineStatus::mistake
+                                                : LineStatus::undecided;
+    line.reason = say("just after the impact");
+    return true;
 }
 
 }  // namespace alembert

@@ -67,7 +67,8 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     MotionRows& rows = system_.rows();
     const ex truth = truth_.value(name.text);
     const bool differs = !up_to && rows.is_identity(rows.row(stated - truth)) != true;
-    if (differs && what.kind != Kind::partial && is_step) {  // p' = Q is an equation of motion, and no step
+    if (differs && is_name && status == LineStatus::right) return;  // d/dt ∂T/∂q' − ∂T/∂q = Q is the law
+    if (differs && what.kind != Kind::partial && is_step) {         // p' = Q is an equation of motion, and no step
         const Mechanism& m = system_.mechanism();
         if (!is_false(status) || m.z->depends(truth, m.qddot) != m.z->depends(stated, m.qddot)) return;
     }
@@ -84,6 +85,7 @@ void Marker::take_in_as(const Math& what, const Math& value) {
             hold_momenta(name.text, claim_text(value, as_written()), text, wrong);
     } else
         own_.state_step(name.text, stated, wrong);
+    if (differs) count_velocity(what.letter, what.dots, name.text);
     if (what.kind == Kind::rate && what.dots == 1)
         own_.state_rate(own_.value(claim_text(*what.args[0], {.letters = letters_, .steps = &own_.steps()}).text),
                         stated, wrong);

@@ -188,26 +188,12 @@ bool Marker::judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs) {
         left = components(lhs);
         right = components(rhs);
     }
-    const auto badness = [](LineStatus status) {
-        switch (status) {
-            case LineStatus::mistake:
-                return 5;
-            case LineStatus::undecided:
-                return 4;
-            case LineStatus::unfounded:
-                return 3;
-            case LineStatus::follows:
-                return 2;
-            default:
-                return 1;
-        }
-    };
     std::optional<MarkedLine> worst;
     LineNotes notes;
     for (std::size_t k = 0; k < 3; ++k) {
         MarkedLine part = line;
         judge_pair(part, *(*left)[k], *(*right)[k]);
-        if (!worst || badness(part.status) > badness(worst->status)) {
+        if (!worst || is_worse(part.status, worst->status)) {
             worst = part;
             notes = notes_.back();
         }

@@ -94,6 +94,23 @@ std::optional<bool> MotionRows::is_identity(const MotionRow& row) const {
     return follows(row, {});
 }
 
+std::optional<bool> MotionRows::is_bound(const std::vector<ex>& factors) {
+    Program p;
+    const std::vector<int> nodes = lower_(p, factors);
+    std::optional<bool> result;
+    for (std::size_t s = 0; s < points_.size(); ++s) {
+        const auto at = evaluate_mod(p, points_[s], nodes);
+        if (!at) continue;
+        std::vector<std::vector<Prime>> rows = bound_[s];
+        const int before = rank(rows);
+        rows.emplace_back(unknowns_.size() + 1, Prime(0));
+        for (std::size_t j = 0; j < factors.size(); ++j) rows.back()[j] = at->value[nodes[j]];
+        if (rank(rows) > before) return false;
+        result = true;
+    }
+    return result;
+}
+
 bool MotionRows::is_multiple(const MotionRow& row, const MotionRow& of) const {
     std::optional<Prime> ratio;
     for (std::size_t s = 0; s < points_.size(); ++s) {

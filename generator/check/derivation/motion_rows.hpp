@@ -38,6 +38,9 @@ public:
     MotionRows(const Mechanism& mechanism, const Equations& equations, Lower lower);
 
     MotionRow row(const GiNaC::ex& residual);
+    /// Whether Σ factor δq vanishes in motion for all displacements that the constraints allow; nothing if it
+    /// could not be evaluated.
+    std::optional<bool> is_bound(const std::vector<GiNaC::ex>& factors);
     /// Nothing if it could not be evaluated anywhere.
     std::optional<bool> holds(const MotionRow& row) const;
     std::optional<bool> is_identity(const MotionRow& row) const;

@@ -56,12 +56,21 @@ void OwnWorld::count_as_part(const std::string& name, const std::string& whole, 
     parts_[name] = {whole, truth};
 }
 
+void OwnWorld::count_as_velocity(const std::string& text, const ex& truth, const ex& mass) {
+    const auto step = steps_.find(text);
+    parts_[step == steps_.end() ? text : step->second] = {letters_.name_of(MechanicalQuantity::kinetic), truth,
+                                                          mass};
+    refresh();
+}
+
 OwnWorld::Stated OwnWorld::with_parts(const std::string& whole, const ex& truth) const {
     Stated result{truth, {}};
     for (const auto& [name, part] : parts_) {
         const auto stated = stated_.find(name);
         if (part.whole != whole || stated == stated_.end() || !stated->second.wrong) continue;
-        result.value += stated->second.value - part.truth;
+        const ex& own = stated->second.value;
+        result.value += part.mass.is_zero() ? own - part.truth
+                                            : part.mass * (GiNaC::pow(own, 2) - GiNaC::pow(part.truth, 2)) / 2;
         result.wrong = later(result.wrong, stated->second.wrong);
     }
     return result;

@@ -34,6 +34,9 @@ public:
     void state(const std::string& name, const GiNaC::ex& value, std::optional<std::size_t> wrong);
     /// The name is a part of the sum `whole`, "T_1" of "T": what it is said to be counts in the whole, too.
     void count_as_part(const std::string& name, const std::string& whole, const GiNaC::ex& truth);
+    /// The name, or the step of this text, is a velocity, or a component of one, of a mass, whose kinetic energy
+    /// counts in the whole.
+    void count_as_velocity(const std::string& text, const GiNaC::ex& truth, const GiNaC::ex& mass);
     /// The same of an expression that is no name, by its text: "diff(L,theta')".
     void state_step(const std::string& text, const GiNaC::ex& value, std::optional<std::size_t> wrong);
     /// The time derivative of a value, as the derivation has written it out.
@@ -106,6 +109,7 @@ private:
     struct PartOf {
         std::string whole;
         GiNaC::ex truth;
+        GiNaC::ex mass{};  ///< of a velocity; 0 of a part that is a sum's
     };
     std::map<std::string, PartOf> parts_;
     /// The value of a sum with its parts as they are stated.

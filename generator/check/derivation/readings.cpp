@@ -172,7 +172,10 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
                         const std::set<Letter>& given) const {
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const std::optional<Letter> letter = perhaps_defined(lines, k, letters, given);
-        if (!letter || !letter->index.empty() || uses(lines, k, *letter).all > 0) continue;
+        const bool bears_out = std::any_of(lines.begin(), lines.end(), [&](const MarkedLine& line) {
+            return line.status == LineStatus::follows && line.follows_from == k;  // T = ½ m v² with this v
+        });
+        if (!letter || !letter->index.empty() || bears_out || uses(lines, k, *letter).all > 0) continue;
         lines[k].status = LineStatus::undecided;
         lines[k].checked = {};
         const std::string name = identifier_of(*letter);

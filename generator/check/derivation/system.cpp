@@ -102,6 +102,7 @@ std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& cla
         for (const std::string& name : line.constants) claim.constants.push_back({name, {}});
         if (line.open) scene.unilateral.clear();
         if (line.at_rest) claim.at = Claim::At::rest;
+        if (line.at_impact) claim.at = Claim::At::impact;
         for (const auto& [name, value] : line.near) {
             claim.at = Claim::At::near;
             claim.near.emplace_back(Name{name, {}}, parse_expression(value, {}, mistakes));

@@ -23,8 +23,9 @@ struct LineClaim {
     std::vector<std::string> constants = {};  ///< names that it claims to be constant
     /// Near this state it is to hold to first order; empty if it is to hold exactly.
     std::vector<std::pair<std::string, std::string>> near = {};
-    bool at_rest = false;  ///< whether it speaks of states of rest
-    bool open = false;     ///< whether it is about motions with open contacts only
+    bool at_rest = false;    ///< whether it speaks of states of rest
+    bool at_impact = false;  ///< whether its rates are those just after the scene's impulses
+    bool open = false;       ///< whether it is about motions with open contacts only
 };
 
 class DerivedSystem {

@@ -10,6 +10,10 @@ GiNaC::ex World::value(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     const Expression expression = parse_expression(text, {}, mistakes);
     if (!expression) throw NoMeaning{.reason = mistakes.at(0).message};
+    return value(expression);
+}
+
+GiNaC::ex World::value(const Expression& expression) {
     try {
         return m_.z->name(formulas_.value(expression));
     } catch (const SceneMistake& mistake) {

@@ -21,6 +21,7 @@ public:
     void know(const std::string& name, const GiNaC::ex& value) { formulas_.know(name, value); }
     /// Throws NoMeaning for a text that has no value here.
     GiNaC::ex value(const std::string& text);
+    GiNaC::ex value(const Expression& expression);
 
 private:
     const Mechanism& m_;

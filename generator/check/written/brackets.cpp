@@ -149,18 +149,6 @@ MathPtr MathParser::group() {
         marked.index = join(letter.index, marked.index);
         return node({.kind = Math::Kind::letter, .letter = marked, .dots = following->dots}, begin);
     }
-    std::size_t over = no_partner;
-    for (std::size_t i = begin + 1; i < close && over == no_partner; ++i) {
-        if (opens(tokens_[i].kind) && partner_[i] != no_partner && partner_[i] < close)
-            i = partner_[i];
-        else if (tokens_[i].kind == Kind::command && tokens_[i].text == "over")
-            over = i;
-    }
-    if (over != no_partner) {
-        MathPtr above = within(begin + 1, over), below = within(over + 1, close);
-        at_ = close + 1;
-        return node({.kind = Math::Kind::quotient, .args = {above, below}}, begin);
-    }
     const MathPtr inside = within(begin + 1, close);
     at_ = close + 1;
     if (inside->kind == Math::Kind::letter) return letter(inside->letter, inside->dots, begin);

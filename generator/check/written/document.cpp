@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/written/document.hpp"
+#include "check/written/rows.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -256,9 +257,13 @@ void DocumentReader::formula(std::size_t begin, std::size_t end, WrittenNotation
     if (tokens.empty()) return;
     if (is_sign_alone(tokens)) return say_words(slice(begin, end));
     if (!is_displayed) return add(statements_of(std::move(tokens), joins_rows), false);
+    tokens = with_lost_rows(std::move(tokens), text_);
     const bool goes_on = !waiting_.empty() && words_.find_first_not_of(" .,") == std::string::npos &&
                          (is_joining_sign(waiting_.back()) || is_joining_sign(tokens.front()));
     if (goes_on) {
+        const bool ends_open = waiting_.back().kind == WrittenToken::Kind::relation;
+        if (ends_open && tokens.front().kind == WrittenToken::Kind::relation)
+            waiting_.pop_back();  // L = | = T - V
         WrittenToken row = tokens.front();
         row.kind = WrittenToken::Kind::row;
         row.text.clear();

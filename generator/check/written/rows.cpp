@@ -13,8 +13,9 @@ namespace {
 using RowKind = WrittenToken::Kind;
 
 bool is_system(const std::string& name) {
-    static constexpr std::string_view names[] = {"cases",  "dcases",   "rcases",      "drcases", "array",
-                                                 "system", "numcases", "subnumcases", "matrix"};
+    static constexpr std::string_view names[] = {"cases",  "dcases",  "rcases",   "drcases",
+                                                 "array",  "system",  "numcases", "subnumcases",
+                                                 "matrix", "pmatrix", "bmatrix",  "Bmatrix"};
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
@@ -244,6 +245,70 @@ private:
 };
 
 }  // namespace
+
+namespace {
+
+/// Whether a line begins with what stands alone on one side: V =, \\dot x_1 =, \\frac{d}{dt} … =
+bool begins_equation(const std::vector<WrittenToken>& tokens, const std::vector<std::size_t>& partner,
+                     std::size_t begin, std::size_t end) {
+    const auto is_derivative_sign = [&](std::size_t i) {
+        return i < end && (tokens[i].kind == RowKind::partial ||
+                           (tokens[i].kind == RowKind::letter && tokens[i].letter == Letter{.base = "d"}));
+    };
+    const bool is_fraction = tokens[begin].kind == RowKind::command && tokens[begin].text == "frac";
+    const bool is_derivative = is_fraction && is_derivative_sign(begin + 2);
+    std::size_t letters = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        const RowKind kind = tokens[i].kind;
+        if (kind == RowKind::relation) return i > begin && (is_derivative || letters == 1);
+        const bool is_bracket = partner[i] != no_partner && partner[i] > i && partner[i] < end;
+        const bool is_accent = kind == RowKind::command && !is_fraction;
+        const bool is_script =
+            kind == RowKind::index || kind == RowKind::primes || (kind == RowKind::open && is_bracket);
+        const bool is_letter = kind == RowKind::letter || kind == RowKind::begin_group;
+        if (!is_derivative && !is_accent && !is_script && !is_letter) return false;
+        letters += is_letter ? 1 : 0;
+        if (kind == RowKind::index) ++i;  // what stands below
+        if (i < end && partner[i] != no_partner && partner[i] > i && partner[i] < end) i = partner[i];
+    }
+    return false;
+}
+
+}  // namespace
+
+std::vector<WrittenToken> with_lost_rows(std::vector<WrittenToken> tokens, std::string_view text) {
+    const std::vector<std::size_t> partner = partners(tokens);
+    std::vector<WrittenToken> result;
+    bool has_relation = false;  // the row
+    int depth = 0;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const std::size_t last = i == 0 ? 0 : tokens[i - 1].offset + tokens[i - 1].length;
+        const bool is_new_line = i > 0 && last < tokens[i].offset &&
+                                 text.substr(last, tokens[i].offset - last).find('\n') != std::string_view::npos;
+        if (is_new_line && depth == 0 && has_relation && !is_row_sign(tokens[i - 1].kind)) {
+            std::size_t end = i + 1;
+            for (std::size_t from = i; end < tokens.size(); from = end++) {
+                const std::size_t done = tokens[from].offset + tokens[from].length;
+                if (done < tokens[end].offset &&
+                    text.substr(done, tokens[end].offset - done).find('\n') != std::string_view::npos)
+                    break;
+            }
+            if (begins_equation(tokens, partner, i, end)) {
+                result.push_back(tokens[i]);
+                result.back().kind = RowKind::row;
+                result.back().text.clear();
+                has_relation = false;
+            }
+        }
+        if (partner[i] != no_partner && tokens[i].kind != RowKind::begin_environment &&
+            tokens[i].kind != RowKind::end_environment)
+            depth += partner[i] > i ? 1 : -1;
+        if (tokens[i].kind == RowKind::row) has_relation = false;
+        has_relation = has_relation || (depth == 0 && tokens[i].kind == RowKind::relation);
+        result.push_back(tokens[i]);
+    }
+    return result;
+}
 
 std::vector<std::vector<WrittenToken>> chains_of(const std::vector<WrittenToken>& tokens, bool joins_rows) {
     return RowJoiner(tokens, joins_rows).chains();

@@ -7,6 +7,7 @@
 #include "base/language/say.hpp"
 #include "check/written/parser.hpp"
 #include "check/written/rows.hpp"
+#include "check/written/tex_groups.hpp"
 #include "check/written/words.hpp"
 
 namespace alembert {
@@ -347,7 +348,7 @@ private:
 
 std::vector<WrittenStatement> statements_of(std::vector<WrittenToken> tokens, bool joins_rows) {
     std::vector<WrittenStatement> list;
-    const std::vector<WrittenToken> plain = without_frames(std::move(tokens));
+    const std::vector<WrittenToken> plain = without_frames(with_fractions(std::move(tokens)));
     for (const std::vector<WrittenToken>& chain : chains_of(plain, joins_rows)) {
         ChainReader reader(chain);
         for (WrittenStatement& one : reader.statements()) list.push_back(std::move(one));

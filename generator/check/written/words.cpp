@@ -172,6 +172,14 @@ bool speaks_of_start_from_rest(std::string_view words) {
         "初始静止*|开始静止*|初始时静止*");
 }
 
+bool speaks_of_impact(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "after the impact|after impact|after the collision|after the blow|after the impulse|just after|"
+        "immediately after|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
+        "unmittelbar nach");
+}
+
 bool speaks_of_angular_momentum(std::string_view words) {
     return has_phrase(last_sentence(words), "angular momentum|moment of momentum|drehimpuls*|角动量*|动量矩*");
 }

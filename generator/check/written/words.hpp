@@ -34,6 +34,9 @@ bool speaks_of_special_motion(std::string_view words);
 /// "starts from rest": constants of the motion are zero.
 bool speaks_of_start_from_rest(std::string_view words);
 
+/// "after the impact": what follows holds just after impulses.
+bool speaks_of_impact(std::string_view words);
+
 bool speaks_of_angular_momentum(std::string_view words);
 
 /// "where", "with", "and": a definition follows what is defined by it.

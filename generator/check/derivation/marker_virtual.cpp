@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines with virtual displacements: δx = l cos θ δθ, δW = Σ Q δq, the general equation of dynamics.
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/derivation/marker.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+using Displacements = std::map<std::string, std::string>;
+
+bool holds_variation(const Math& math) {
+    return math.kind == Kind::variation || std::any_of(math.args.begin(), math.args.end(),
+                                                       [](const MathPtr& arg) { return holds_variation(*arg); });
+}
+
+/// δW, or a sum of them.
+bool is_virtual_work(const Math& math) {
+    if (math.kind == Kind::call && math.text == "sum" && !math.args.empty()) return is_virtual_work(*math.args[0]);
+    return math.kind == Kind::variation && math.args[0]->kind == Kind::letter && math.args[0]->letter.base == "W";
+}
+
+bool is_zero(const Math& math) {
+    return math.kind == Kind::number && math.text == "0";
+}
+
+/// δq is 1 for this coordinate, and 0 for all others; −1 for none.
+Displacements along(const Mechanism& m, int coordinate) {
+    Displacements result;
+    for (int j = 0; j < m.size(); ++j) result[m.q[j].get_name()] = j == coordinate ? "1" : "0";
+    return result;
+}
+
+}  // namespace
+
+/// A line with δ is one claim for each coordinate: that of the terms with its displacement. Returns whether it is
+/// such a line.
+bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    if (!holds_variation(lhs) && !holds_variation(rhs)) return false;
+    if (is_virtual_work(lhs) && is_zero(rhs)) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("a law in general coordinates");
+        return true;
+    }
+    if (is_virtual_work(lhs)) {
+        judge_work(line, rhs);
+        return true;
+    }
+    if (!system_.equations().A.empty()) return judge_admissible(line, lhs, rhs);
+    const Mechanism& m = system_.mechanism();
+    std::optional<MarkedLine> told;
+    LineNotes notes;
+    try {
+        for (int i = 0; i < m.size(); ++i) {
+            const Displacements displacements = along(m, i);
+            displacements_ = &displacements;
+            MarkedLine part = line;
+            judge_pair(part, lhs, rhs);
+            displacements_ = nullptr;
+            if (told && !is_worse(part.status, told->status)) continue;
+            told = part;
+            notes = notes_.back();
+        }
+    } catch (...) {
+        displacements_ = nullptr;
+        throw;
+    }
+    line = *told;
+    notes_.back() = std::move(notes);
+    return true;
+}
+
+/// Where constraints bind the displacements, what stands before them may differ by Σ λ ∂f/∂q.
+bool Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    std::vector<ex> factors;
+    for (int i = -1; i < m.size(); ++i) {
+        const Displacements displacements = along(m, i);
+        const ClaimWriting writing{.letters = letters_, .displacements = &displacements};
+        const ex value = truth_.value(claim_text(lhs, writing).text) - truth_.value(claim_text(rhs, writing).text);
+        if (i >= 0)
+            factors.push_back(m.z->name(value));
+        else if (!m.z->name(value).is_zero())
+            throw NoMeaning{.reason = say("each term holds one virtual displacement")};
+    }
+    const std::optional<bool> holds = system_.rows().is_bound(factors);
+    line.status = !holds ? LineStatus::undecided : *holds ? LineStatus::right : LineStatus::mistake;
+    line.reason = holds ? say("for displacements that the constraints allow") : say("it could not be evaluated");
+    return true;
+}
+
+/// δW = Σ Q_q δq: one claim for each coordinate.
+void Marker::judge_work(MarkedLine& line, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    std::vector<std::string> texts;
+    std::vector<ex> own, truth;
+    for (int i = -1; i < m.size(); ++i) {  // −1: without displacements there is no work
+        const Displacements displacements = along(m, i);
+        const ClaimText text = claim_text(rhs, {.letters = letters_, .displacements = &displacements});
+        if (i < 0) {
+            if (!truth_.value(text.text).is_zero())
+                throw NoMeaning{.reason = say("each term holds one virtual displacement")};
+            continue;
+        }
+        texts.push_back(text.text);
+        truth.push_back(truth_.value(text.text));
+        own.push_back(own_.value(text.text));
+    }
+    MotionRows& rows = system_.rows();
+    const auto first_wrong = [&](bool all) -> std::optional<std::size_t> {
+        const std::vector<ex> forces = system_.forces(all);
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            if (rows.is_identity(rows.row(truth[i] - forces[i])) != true) return i;
+        return std::nullopt;
+    };
+    std::optional<std::size_t> wrong = first_wrong(all_forces_);
+    if (wrong && !first_wrong(!all_forces_)) {
+        use_all_forces(!all_forces_);
+        wrong.reset();
+    }
+    line.status = wrong ? LineStatus::mistake : LineStatus::right;
+    const std::string name = "Q_" + m.q[wrong ? static_cast<int>(*wrong) : 0].get_name();
+    const std::string& text = texts[wrong.value_or(0)];
+    line.claim = name + " = " + text;
+    notes_.back().claim = {.lhs = name, .rhs = text};
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const std::string force = "Q_" + m.q[i].get_name();
+        const bool same = rows.is_identity(rows.row(own[i] - truth_.value(force))) == true;
+        own_.state(force, own[i], same ? std::nullopt : std::optional(lines.size()));
+    }
+}
+
+}  // namespace alembert
