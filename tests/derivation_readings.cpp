@@ -211,6 +211,57 @@ TEST_CASE("readings: a mass centre is no particle whose name has the same initia
     CHECK(statuses(cart, "$x_G = x + l\\sin\\varphi$, $y_G = -l\\cos\\varphi$") == "RR");
 }
 
+TEST_CASE("readings: slopes along the motion, single motions, matrices that are written out") {
+    CHECK(statuses(pendulum, "$$\\dot\\theta\\frac{d\\dot\\theta}{d\\theta} = -\\frac gl\\sin\\theta$$") == "R");
+    CHECK(statuses(pendulum, "$$\\dot\\theta\\frac{d\\dot\\theta}{d\\theta} = \\frac gl\\sin\\theta$$") == "M");
+    CHECK(statuses(pendulum, "$$\\ddot\\theta = \\frac12\\frac{d}{d\\theta}(\\dot\\theta^2)$$") == "R");
+    CHECK(statuses(pendulum, "$$ml^2\\ddot\\theta = -\\frac{dV}{d\\theta} = -mgl\\sin\\theta$$") == "RR");
+    CHECK(statuses(pendulum, "$$ml^2\\ddot\\theta = \\frac{dV}{d\\theta}$$") == "M");
+    CHECK(statuses(test::textbook_text("central_force"), "$$\\dot r = \\dot\\phi\\frac{dr}{d\\phi}$$") == "R");
+    CHECK(statuses(test::textbook_text("central_force"), "$$\\dot r = \\dot r\\frac{dr}{d\\phi}$$") == "M");
+    CHECK(statuses(pendulum, "$$\\theta = A\\cosh(\\alpha t)$$") == "-");
+    CHECK(statuses(pendulum, "Then $\\theta = \\frac12\\ddot\\theta t^2$.") == "-");
+    CHECK(statuses(pendulum,
+                   "$$V = -mgl\\cos\\theta,\\quad V'(\\theta) = mgl\\sin\\theta,\\quad V''(0) = mgl$$") == "RR-");
+    const std::string M = "$$\\begin{pmatrix} m & 0 \\\\ 0 & m\\end{pmatrix}\\begin{pmatrix}\\ddot x\\\\ \\ddot "
+                          "y\\end{pmatrix} + \\begin{pmatrix} k x \\\\ ",
+                      end = " k y\\end{pmatrix} = 0$$";
+    CHECK(statuses(two_particles, M + end) == "R");
+    CHECK(statuses(two_particles, M + "2" + end) == "M");
+}
+
+TEST_CASE("readings: a law that is stated founds what follows; denials and what is struck out say nothing") {
+    CHECK(statuses(pendulum,
+                   "$\\frac{d}{dt}\\frac{\\partial L}{\\partial\\dot\\theta}=\\frac{\\partial "
+                   "L}{\\partial\\theta}$ so $\\ddot\\theta=-\\frac gl\\sin\\theta$.") == "RR");
+    CHECK(statuses(pendulum, "~~$T = m l \\dot\\theta$~~ $T=\\frac12 ml^2\\dot\\theta^2$") == "R");
+    CHECK(statuses(pendulum, "It is not true that $V = mgl\\cos\\theta$.") == "-");
+    CHECK(statuses(pendulum, "Instead of forces we use energies: $V = mgl\\cos\\theta$.") == "M");
+    CHECK(statuses(pendulum, "$T + V = 常量$, $T + V = \\text{konst.}$") == "RR");
+    CHECK(statuses(pendulum, "$T - V = 常量$") == "M");
+    CHECK(statuses(pendulum, "$$K.E. = \\frac12 ml^2\\dot\\theta^2$$") == "R");
+    CHECK(statuses(pendulum, "$$\\frac12 ml^2\\dot\\theta^2 - mgl\\cos\\theta =: K$$") == "D");
+    CHECK(statuses(pendulum, "$$K = \\frac12 ml^2\\dot\\theta^2 - mgl\\cos\\theta$$") == "M");
+}
+
+TEST_CASE("readings: notebooks of Jupyter and reStructuredText, each mistake at its place") {
+    const std::string cells =
+        R"json({"cells": [{"cell_type": "markdown", "metadata": {}, "source": ["The energy is\n",
+ "$T = \\frac12 m l^2\\dot\\theta^2$"]}, {"cell_type": "code", "source": ["T = 3*m"], "outputs": []},
+ {"source": "\\begin{align}\nV &= -m g l\\cos\\theta\\\\\nL &= T + V\n\\end{align}", "cell_type": "markdown"}],
+ "metadata": {}, "nbformat": 4})json";
+    CHECK(statuses(pendulum, cells, "page.ipynb") == "RRM");
+    const Marked marked = mark(parse_scene(pendulum, "scene.toml"), read_derivation(cells, "page.ipynb"));
+    CHECK(marked.lines[2].line == 3);
+    CHECK(marked.lines[2].source == "L &= T + V");
+    CHECK_THROWS_AS(read_derivation("{}", "page.ipynb"), SceneError);
+    CHECK(statuses(pendulum,
+                   "Energies\n========\n\n.. math::\n\n   T = \\frac12 m l^2\\dot\\theta^2\n\n   V = m g "
+                   "l\\cos\\theta\n\n"
+                   "so :math:`l\\ddot\\theta + g\\sin\\theta = 0`.\n",
+                   "page.rst") == "RMU");
+}
+
 // What is heard in one language is heard in the others.
 // Words that a person writes beside his lines excuse none that is wrong.
 TEST_CASE("readings: ordinary prose hides no wrong line") {

@@ -255,8 +255,20 @@ private:
         return true;
     }
 
+    /// d(θ'^2)/dθ along the motion: the rates of both, divided. Returns false where it is not taken so.
+    bool slope_of_motion(const Math& math) {
+        if (!how_.slopes_are_of_motion || math.text != "d") return false;
+        for (std::size_t k = 1; k < math.args.size(); ++k)
+            if (math.args[k]->kind != Kind::letter || math.args[k]->dots > 0) return false;
+        std::string text = claim_text(*math.args[0], {.letters = how_.letters}).text;
+        for (std::size_t k = 1; k < math.args.size(); ++k)
+            text = fmt::format("(({})'/{}')", text, name(*math.args[k], false));
+        out() += text;
+        return true;
+    }
+
     void partial(const Math& math) {
-        if (partial_by_speed(math)) return;
+        if (slope_of_motion(math) || partial_by_speed(math)) return;
         out() += "diff(";
         const Math& of = *math.args[0];
         if (of.kind == Kind::letter || of.kind == Kind::applied)

@@ -53,6 +53,8 @@ struct ClaimWriting {
     bool alone_is_quantity = false;
     /// Whether ∂/∂ψ' is that of the independent rates, the constraints having been solved for the others.
     bool rates_are_speeds = false;
+    /// Whether d/dθ is taken along the motion: of θ' it is θ''/θ'.
+    bool slopes_are_of_motion = false;
 };
 
 /// Throws NoMeaning.

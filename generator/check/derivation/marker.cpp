@@ -144,7 +144,8 @@ ClaimWriting Marker::as_written() const {
             .displacements = displacements_,
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
-            .rates_are_speeds = notes_.back().rates_are_speeds};
+            .rates_are_speeds = notes_.back().rates_are_speeds,
+            .slopes_are_of_motion = notes_.back().slopes_are_of_motion};
 }
 
 ClaimWriting Marker::as_derived() const {
@@ -153,7 +154,8 @@ ClaimWriting Marker::as_derived() const {
             .displacements = displacements_,
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
-            .rates_are_speeds = notes_.back().rates_are_speeds};
+            .rates_are_speeds = notes_.back().rates_are_speeds,
+            .slopes_are_of_motion = notes_.back().slopes_are_of_motion};
 }
 
 ex Marker::own_residual(const Sides& sides) {
@@ -228,10 +230,11 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
     if (is_of_own_gauge(line, sides) || holds_after_impact(line, sides)) return;
-    if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_equilibrium(line, sides) ||
-        is_given_value(line, sides) || is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
-        holds_up_to(line, sides, row.residual) || holds_at_rest(line, sides) ||
-        holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+    if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
+        is_equilibrium(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
+        holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
+        holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) ||
+        follows_with_all_forces(line, sides))
         return;
     line.status = LineStatus::mistake;
     if (speaks_of_small_) notes_.back().near = near_;

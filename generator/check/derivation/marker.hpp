@@ -26,6 +26,7 @@ struct LineNotes {
     ClaimText left = {}, right = {};
     bool alone_is_quantity = false;          ///< as in ClaimWriting
     bool rates_are_speeds = false;           ///< likewise
+    bool slopes_are_of_motion = false;       ///< likewise
     std::optional<BaseState> near = {};      ///< about which the derivation linearizes there
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
@@ -71,6 +72,7 @@ private:
     ClaimWriting as_derived() const;
     bool is_of_quantity(MarkedLine& line, const Sides& sides);
     bool is_in_independent_rates(MarkedLine& line, const Sides& sides);
+    bool is_along_motion(MarkedLine& line, const Sides& sides);
     bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
     GiNaC::ex own_residual(const Sides& sides);
 
@@ -103,6 +105,7 @@ private:
     bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool is_of_one_motion(const Math& lhs, const Math& rhs);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
@@ -121,6 +124,7 @@ private:
 
     bool judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs);
     std::optional<Components> components(const Math& math) const;
+    std::optional<Components> matrix_times_vector(const Math& product) const;
     bool is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const;
     bool bind_vector(const Math& letter, const Components& value);
 

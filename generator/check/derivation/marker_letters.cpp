@@ -29,10 +29,6 @@ std::string without_dot(const std::string& index) {
     return index.ends_with(dot) ? index.substr(0, index.size() - dot.size()) : "";
 }
 
-bool is_word_for_constant(const Letter& letter) {
-    return letter.base == "const" || letter.base == "const." || letter.base == "constant";
-}
-
 }  // namespace
 
 std::string Marker::bind(const Letter& letter, const ex& truth) {
@@ -269,20 +265,21 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
 bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text) {
     const Mechanism& m = system_.mechanism();
     const ex value = truth_.value(text.text);
-    if (m.z->depends(value, m.qddot) || (!m.z->depends(value, m.qdot) && !is_word_for_constant(letter.letter)))
+    if (m.z->depends(value, m.qddot) ||
+        (!m.z->depends(value, m.qdot) && !is_word_for_constant(letter.letter.base)))
         return false;
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
-    if (!holds && !is_word_for_constant(letter.letter)) return false;
+    if (!holds && !is_word_for_constant(letter.letter.base)) return false;
     std::string name =
-        letters_.free_name(is_word_for_constant(letter.letter) ? "const" : identifier_of(letter.letter));
+        letters_.free_name(is_word_for_constant(letter.letter.base) ? "const" : identifier_of(letter.letter));
     while (constants_.contains(name)) name = letters_.free_name(name + "_");  // each "const" is one of its own
-    if (is_word_for_constant(letter.letter)) constants_.insert(name);
+    if (is_word_for_constant(letter.letter.base)) constants_.insert(name);
     line.claim = text.text + " = " + name;
     notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
     notes_.back().left = text;
     line.status = holds ? LineStatus::right : LineStatus::mistake;
-    if (holds && !is_word_for_constant(letter.letter)) kept_.insert(bind(letter.letter, value));
+    if (holds && !is_word_for_constant(letter.letter.base)) kept_.insert(bind(letter.letter, value));
     return true;
 }
 

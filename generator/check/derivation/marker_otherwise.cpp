@@ -3,6 +3,7 @@
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/language/say.hpp"
 #include "check/total_derivative.hpp"
@@ -46,6 +47,24 @@ bool Marker::is_in_independent_rates(MarkedLine& line, const Sides& sides) {
     notes_.back().rates_are_speeds = solves_constraints_;
     if (solves_constraints_) judge_pair(line, *sides.lhs, *sides.rhs);
     return solves_constraints_;
+}
+
+/// θ'' = θ' dθ'/dθ: slopes along the motion.
+bool Marker::is_along_motion(MarkedLine& line, const Sides& sides) {
+    const std::function<bool(const Math&)> has_slope = [&](const Math& math) {
+        return (math.kind == Kind::partial && math.text == "d") ||
+               std::any_of(math.args.begin(), math.args.end(),
+                           [&](const MathPtr& arg) { return has_slope(*arg); });
+    };
+    if (notes_.back().slopes_are_of_motion || (!has_slope(*sides.lhs) && !has_slope(*sides.rhs))) return false;
+    notes_.back().slopes_are_of_motion = true;
+    const Sides other = sides_of(*sides.lhs, *sides.rhs);
+    MotionRows& rows = system_.rows();
+    const bool holds =
+        rows.holds(rows.row(truth_.value(other.left.text) - truth_.value(other.right.text))) == true;
+    if (holds) judge_pair(line, *sides.lhs, *sides.rhs);
+    notes_.back().slopes_are_of_motion = holds;
+    return holds;
 }
 
 /// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.

@@ -11,6 +11,7 @@
 
 namespace alembert {
 
+using GiNaC::ex;
 using Kind = Math::Kind;
 
 namespace {
@@ -54,9 +55,27 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
         const auto name = letters_.name_of(letter);
         return name && letters_.is_of_scene(*name) && !letters_.moves(*name) && !letters_.is_function(*name);
     };
-    if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter)) return false;
+    const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
+    if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter && !is_said)) return false;
     return std::all_of(all.begin(), all.end(),
                        [&](const auto& item) { return item.second == 0 && is_parameter(item.first); });
+}
+
+/// x = ½ a t², θ = A cos ω t: one motion of a system that does not change with time.
+bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
+    const auto name = lhs.kind == Kind::letter ? letters_.name_of(lhs.letter) : std::nullopt;
+    const std::vector<std::string>& coordinates = letters_.coordinates();
+    if (!name || std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()) return false;
+    std::map<Letter, int> all;
+    collect_letters(rhs, all);
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& item) { return letters_.name_of(item.first) == "t"; }))
+        return false;
+    const Mechanism& m = system_.mechanism();
+    std::vector<ex> values = system_.forces(true);
+    values.push_back(m.lagrangian());
+    const std::vector<ex> changes = m.explicit_time_derivative(values);
+    return std::all_of(changes.begin(), changes.end(), [](const ex& change) { return change.is_zero(); });
 }
 
 /// Whether the line states one moment or a condition; then it is told so.
@@ -66,12 +85,14 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         line.reason = std::move(reason);
         return true;
     };
+    if (denies(statement_->words)) return tell(say("the words say that it does not hold"));
     if (speaks_of_numbered_equations(written_.text.substr(statement_->offset, statement_->length)))
         return tell(say("it speaks of equations by their numbers"));
+    if (is_of_one_motion(lhs, rhs)) return tell(say("it describes one motion; lines are judged for all motions"));
     for (const Math* side : {&lhs, &rhs})
         if (side->kind == Kind::applied && side->args.size() == 1 && side->args[0]->kind == Kind::number) {
             const auto name = letters_.name_of(side->letter);
-            if (name && letters_.is_of_scene(*name) && letters_.moves(*name))
+            if (name && (!letters_.is_of_scene(*name) || letters_.moves(*name)))  // θ(0), V''(0)
                 return tell(say("a value at one moment; lines are judged for all motions"));
         }
     std::map<Letter, int> all;

@@ -67,8 +67,8 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     MotionRows& rows = system_.rows();
     const ex truth = truth_.value(name.text);
     const bool differs = !up_to && rows.is_identity(rows.row(stated - truth)) != true;
-    if (differs && is_name && status == LineStatus::right) return;  // d/dt ∂T/∂q' − ∂T/∂q = Q is the law
-    if (differs && what.kind != Kind::partial && is_step) {         // p' = Q is an equation of motion, and no step
+    if (differs && status == LineStatus::right) return;      // d/dt ∂L/∂q' = ∂L/∂q is the law
+    if (differs && what.kind != Kind::partial && is_step) {  // p' = Q is an equation of motion, and no step
         const Mechanism& m = system_.mechanism();
         if (!is_false(status) || m.z->depends(truth, m.qddot) != m.z->depends(stated, m.qddot)) return;
     }

@@ -56,6 +56,30 @@ int axis_of(const Letter& letter) {
 
 }  // namespace
 
+/// M q'' with a matrix that is written out, and factors before it; nothing if it is none.
+std::optional<Marker::Components> Marker::matrix_times_vector(const Math& product) const {
+    if (product.args.size() < 2) return std::nullopt;
+    const Math& matrix = *product.args[product.args.size() - 2];
+    const auto of = components(*product.args.back());
+    if (matrix.kind != Kind::matrix || !of || matrix.args.size() > 3) return std::nullopt;
+    Components result(3, number("0", product));
+    for (std::size_t i = 0; i < matrix.args.size(); ++i) {
+        std::vector<MathPtr> terms;
+        const std::vector<MathPtr>& row = matrix.args[i]->args;
+        if (row.size() > 3) return std::nullopt;
+        for (std::size_t j = 0; j < row.size(); ++j) {
+            if (row[j]->kind == Kind::number && row[j]->text == "0") continue;
+            std::vector<MathPtr> factors(product.args.begin(), product.args.end() - 2);
+            factors.push_back(row[j]);
+            factors.push_back((*of)[j]);
+            terms.push_back(made(Kind::product, std::move(factors), product));
+        }
+        if (terms.size() == 1) result[i] = terms[0];
+        if (terms.size() > 1) result[i] = made(Kind::sum, std::move(terms), product);
+    }
+    return result;
+}
+
 /// The components of an expression that is a vector; nothing if it is none.
 std::optional<Marker::Components> Marker::components(const Math& math) const {
     const auto nothing = number("0", math);
@@ -106,6 +130,7 @@ std::optional<Marker::Components> Marker::components(const Math& math) const {
         case Kind::product: {
             std::optional<Components> vector;
             std::vector<MathPtr> factors;
+            if (const auto turned = matrix_times_vector(math)) return turned;
             for (const MathPtr& factor : math.args) {
                 auto of = components(*factor);
                 if (of && vector) return std::nullopt;
@@ -179,6 +204,7 @@ bool Marker::judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!left && !right) return is_column(line, lhs, rhs);
     const Math& open = left ? rhs : lhs;
     bool is_defined = true;
+    if (open.kind == Kind::number && open.text == "0") (left ? right : left) = Components(3, number("0", open));
     if (!left || !right) {
         const bool may_bind = open.kind == Kind::letter && open.dots == 0 && !letters_.name_of(open.letter);
         if (!may_bind)

@@ -95,7 +95,9 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     return letters.name_of(item.first).has_value();
                 });
                 const auto name = letters.name_of(*letter);
-                if (is_general && !name && is_known) letters.leave_to_author(*letter);
+                const bool is_named_here = turned && statement.relations[k] == Relation::identical &&
+                                           alone_in(value) == nullptr;  // T + V =: K
+                if (is_known && (is_named_here || (is_general && !name))) letters.leave_to_author(*letter);
                 if (is_any_energy(*letter) && name && !letters.is_of_scene(*name) && is_known &&
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
@@ -133,7 +135,7 @@ std::optional<Letter> Readings::perhaps_defined(const std::vector<MarkedLine>& l
     const auto [left, right] = pair_of(written_, lines, k);
     for (const auto& [side, value] : {std::pair(left, right), std::pair(right, left)}) {
         const Letter* const letter = side == nullptr ? nullptr : alone_in(*side);
-        if (letter == nullptr || letter->base.starts_with("const") || is_any_energy(*letter) ||
+        if (letter == nullptr || is_word_for_constant(letter->base) || is_any_energy(*letter) ||
             letters.is_authors(*letter) || given.contains(*letter) || speaks_of(*value, *letter))
             continue;
         const auto name = letters.name_of(*letter);

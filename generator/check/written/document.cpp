@@ -165,11 +165,27 @@ void DocumentReader::next(Markup markup) {
     } else if (c == '<' && starts_with("<!--")) {
         const std::size_t close = text_.find("-->", at_);
         at_ = close == std::string::npos ? end_ : std::min(close + 3, end_);
+    } else if (markup == Markup::markdown && struck_out()) {
+        return;
     } else {
-        const std::size_t stop = std::min(text_.find_first_of("\n%\\$`(<", at_ + 1), end_);
+        const std::size_t stop = std::min(text_.find_first_of("\n%\\$`(<~", at_ + 1), end_);
         say_words(slice(at_, stop));
         at_ = stop;
     }
+}
+
+/// ~~…~~ and <del>…</del>: what the author has struck out says nothing.
+bool DocumentReader::struck_out() {
+    static constexpr std::pair<std::string_view, std::string_view> signs[] = {
+        {"~~", "~~"}, {"<del>", "</del>"}, {"<s>", "</s>"}, {"<strike>", "</strike>"}};
+    for (const auto& [open, close] : signs) {
+        if (!starts_with(open) || starts_with("~~~")) continue;
+        const std::size_t end = text_.find(close, at_ + open.size());
+        if (end == std::string::npos || end >= paragraph_end(at_)) return false;
+        at_ = end + close.size();
+        return true;
+    }
+    return false;
 }
 
 void DocumentReader::say_words(std::string_view text) {

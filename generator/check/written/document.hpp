@@ -48,6 +48,7 @@ private:
     void scan(std::size_t begin, std::size_t end, Markup markup);
     void next(Markup markup);
     void say_words(std::string_view text);
+    bool struck_out();
     void end_paragraph();
     void dollar();
     bool enclosed(std::string_view open, std::string_view close, bool is_displayed);

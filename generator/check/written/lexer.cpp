@@ -144,11 +144,11 @@ bool WrittenLexer::doubled_sign(std::size_t begin) {
     };
     static constexpr Pair pairs[] = {
         {"<=>", Kind::arrow, "iff"}, {"...", Kind::dots, ""},     {"**", Kind::power, ""},
-        {":=", Kind::relation, ":"}, {"==", Kind::relation, "="}, {"=>", Kind::arrow, "to"},
-        {"->", Kind::arrow, "to"},   {"<=", Kind::relation, "<"}, {">=", Kind::relation, "<"},
-        {"!=", Kind::relation, "<"}, {"~=", Kind::relation, "~"}, {".*", Kind::times, ""},
-        {"./", Kind::divide, "/"},   {"//", Kind::divide, "/"},   {".^", Kind::power, ""},
-        {"||", Kind::bar, "||"},
+        {":=", Kind::relation, ":"}, {"=:", Kind::relation, ":"}, {"==", Kind::relation, "="},
+        {"=>", Kind::arrow, "to"},   {"->", Kind::arrow, "to"},   {"<=", Kind::relation, "<"},
+        {">=", Kind::relation, "<"}, {"!=", Kind::relation, "<"}, {"~=", Kind::relation, "~"},
+        {".*", Kind::times, ""},     {"./", Kind::divide, "/"},   {"//", Kind::divide, "/"},
+        {".^", Kind::power, ""},     {"||", Kind::bar, "||"},
     };
     for (const Pair& pair : pairs) {
         if (text_.compare(at_, pair.text.size(), pair.text) != 0) continue;
@@ -253,6 +253,12 @@ void WrittenLexer::scripts(char (*plain)(char32_t), std::string_view mark) {
 
 void WrittenLexer::character() {
     const std::size_t begin = at_;
+    for (const std::string_view word : {"常数", "常量", "恒量", "常值"})
+        if (text_.compare(at_, word.size(), word) == 0) {
+            at_ += word.size();
+            add(Kind::letter, begin).letter.base = "const";
+            return;
+        }
     const char32_t c = decode(text_, at_);
     if (raised_sign(c) != '\0' || lowered_sign(c) != '\0') {
         at_ = begin;
@@ -289,9 +295,23 @@ bool WrittenLexer::bare_function() {
     return false;
 }
 
+/// K.E. and P.E.
+bool WrittenLexer::abbreviated_energy() {
+    for (const std::string_view name : {"K.E", "P.E"}) {
+        if (text_.compare(at_, name.size(), name) != 0 || is_latin(byte(at_ + name.size()))) continue;
+        const std::size_t begin = at_;
+        at_ += name.size();
+        if (byte(at_) == '.') ++at_;
+        add(Kind::letter, begin).letter.base = {name.front(), 'E'};
+        return true;
+    }
+    return false;
+}
+
 /// Latin letters: each for itself in LaTeX, together in plain text.
 void WrittenLexer::word() {
     const std::size_t begin = at_;
+    if (abbreviated_energy()) return;
     if (!is_plain()) {
         if (bare_function()) return;
         ++at_;

@@ -50,6 +50,7 @@ private:
     std::string marks(std::string letter);
     void word();
     bool bare_function();
+    bool abbreviated_energy();
     void split_function(std::size_t begin);
     bool plain_word(std::size_t begin, const std::string& word);
     void delimiter(std::string_view which, std::size_t begin);

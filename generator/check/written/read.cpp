@@ -8,6 +8,7 @@
 
 #include "base/language/say.hpp"
 #include "check/written/document.hpp"
+#include "check/written/notebook.hpp"
 #include "check/written/parser.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
@@ -90,7 +91,8 @@ bool is_written_by_hand(const std::string& line) {
     bool has_product = false;  // without a sign: 1/2 m l^2
     for (std::size_t i = 1; i + 1 < line.size(); ++i)
         has_product = has_product || (line[i] == ' ' && ends_factor(line[i - 1]) && begins_factor(line[i + 1]));
-    return is_labelled || is_chain || (has_product && equals != std::string::npos) ||
+    const bool is_printed = line.find("Eq(") != std::string::npos || line.find("Derivative(") != std::string::npos;
+    return is_labelled || is_chain || is_printed || (has_product && equals != std::string::npos) ||
            longest_sentence(line) >= 3 || std::any_of(std::begin(signs), std::end(signs), [&](const char* sign) {
                return line.find(sign) != std::string::npos;
            });
@@ -138,7 +140,8 @@ int Written::column(std::size_t offset) const {
 
 bool is_derivation(const std::string& text, const std::string& file) {
     return file.ends_with(".tex") || file.ends_with(".latex") || file.ends_with(".md") ||
-           file.ends_with(".markdown") || has_enclosed_latex(text) || (file.ends_with(".txt") && has_prose(text));
+           file.ends_with(".markdown") || file.ends_with(".rst") || file.ends_with(".ipynb") ||
+           has_enclosed_latex(text) || (file.ends_with(".txt") && has_prose(text));
 }
 
 Written read_derivation(std::string text, std::string file) {
@@ -151,8 +154,12 @@ Written read_derivation(std::string text, std::string file) {
     Written written{.file = std::move(file), .text = std::move(text), .statements = {}};
     note_places(written);
     check_encoding(written);
+    const std::string cells = written.file.ends_with(".ipynb") ? cells_of_notebook(written.text) : "";
+    if (written.file.ends_with(".ipynb") && cells.empty())
+        fail_at(written, 0, say("the file is no notebook of Jupyter: it has no list 'cells'"));
     try {
-        DocumentReader reader(written.text, is_tex(written.text, written.file) ? Markup::tex : Markup::markdown);
+        DocumentReader reader(cells.empty() ? written.text : cells,
+                              is_tex(written.text, written.file) ? Markup::tex : Markup::markdown);
         written.statements = reader.statements();
     } catch (const BeyondLimit& limit) {
         fail_at(written, limit.offset, limit.message);

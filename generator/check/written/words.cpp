@@ -144,6 +144,13 @@ bool begins_condition_of_state(std::string_view words) {
     });
 }
 
+bool speaks_of_special_case(std::string_view words) {
+    return begins_condition_of_state(words) ||
+           has_phrase(
+               last_sentence(words),
+               "special case|in the case|in case|provided|only for|only if|sonderfall|特殊情形*|特例*|当且仅当*");
+}
+
 bool speaks_of_special_motion(std::string_view words) {
     return has_phrase(last_sentence(words),
                       "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
@@ -201,6 +208,24 @@ bool is_word_for_letter(std::string_view word) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
                c == '.' || c == '-';
     });
+}
+
+bool is_word_for_constant(std::string_view word) {
+    static constexpr std::string_view names[] = {"const",     "const.",   "constant",  "konst", "konst.",
+                                                 "konstante", "konstant", "constante", "cte",   "cst"};
+    return std::find(std::begin(names), std::end(names), in_lower_case(word)) != std::end(names);
+}
+
+bool denies(std::string_view words) {
+    const std::string sentence = last_sentence(words);
+    const std::string_view before = std::string_view(sentence).substr(0, sentence.find_last_not_of(' ') + 1);
+    for (const std::string_view last : {" not", " nicht", "而不是", "并非"})
+        if (before.ends_with(last)) return true;
+    return has_phrase(
+        sentence,
+        "not true that|not correct that|not right that|wrong to write|wrong to say|it is wrong that|"
+        "a common mistake*|a frequent mistake*|one might think that|wrongly write*|并不是*|误写*|错写*|"
+        "错误地写*|es gilt nicht|nicht richtig|fälschlich*");
 }
 
 bool is_prose(std::string_view word) {

@@ -24,6 +24,9 @@ bool states_condition(std::string_view words);
 /// "if", "at", "for" before a formula: if that describes a state, what follows holds there.
 bool begins_condition_of_state(std::string_view words);
 
+/// "in the special case", "for", "if" before a formula: it may be a condition on parameters.
+bool speaks_of_special_case(std::string_view words);
+
 /// "at rest", "in equilibrium": the last sentence speaks of states of rest, and not of a start or of a place from
 /// which something is measured.
 bool speaks_of_rest(std::string_view words);
@@ -50,6 +53,12 @@ bool joins_formulas(std::string_view words);
 
 /// A word in a formula that can be the name of something (KE, const), and no word such as "and".
 bool is_word_for_letter(std::string_view word);
+
+/// const, Konst., 常量: what keeps its value.
+bool is_word_for_constant(std::string_view word);
+
+/// "It is not true that": what follows is no claim.
+bool denies(std::string_view words);
 
 /// A word of English prose that is no name in a formula: "the", "energy".
 bool is_prose(std::string_view word);
