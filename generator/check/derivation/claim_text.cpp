@@ -287,7 +287,8 @@ private:
     /// δθ as its value, δx of a place x as Σ ∂x/∂q δq.
     void variation(const Math& math) {
         const Math& of = *math.args[0];
-        if (how_.displacements == nullptr || moves_in_time(of))
+        const bool is_of_time = of.kind == Kind::letter && of.letter == Letter{.base = "t"};  // dx = v dt
+        if (how_.displacements == nullptr || is_of_time || moves_in_time(of))
             refuse(math, say("a virtual displacement has a meaning for coordinates and places only"));
         if (of.kind == Kind::letter)
             if (const auto value = how_.displacements->find(name(of, false)); value != how_.displacements->end()) {

@@ -237,10 +237,11 @@ std::string Letters::coordinate_of(const std::string& index) const {
     for (const std::string& q : coordinates_)
         for (const std::string& hand : hands_of(word))
             if (index_word(q) == hand) return q;
-    for (const auto& [letter, name] : bound_)  // φ for theta: p_φ is p_theta
-        if (letter.index.empty() && index_word(letter.base) == word &&
-            std::find(coordinates_.begin(), coordinates_.end(), name) != coordinates_.end())
-            return name;
+    for (const auto& [letter, name] : bound_) {  // φ for theta: p_φ is p_theta; q_1 for x: Q_1 is Q_x
+        const bool is_it = letter.index.empty() ? index_word(letter.base) == word
+                                                : letter.base == "q" && index_word(letter.index) == word;
+        if (is_it && std::find(coordinates_.begin(), coordinates_.end(), name) != coordinates_.end()) return name;
+    }
     for (std::size_t k = 0; k < coordinates_.size(); ++k)
         if (word == std::to_string(k + 1)) return coordinates_[k];
     return {};

@@ -429,6 +429,16 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
 }
 
 void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
+    if (power == 1 && rhs.kind == Kind::letter && rhs.dots == 0) {  // q_1 = x
+        const auto name = letters_.name_of(rhs.letter);
+        const std::vector<std::string>& all = letters_.coordinates();
+        if (name && std::find(all.begin(), all.end(), *name) != all.end()) {
+            letters_.bind(letter.letter, *name);
+            line.status = LineStatus::definition;
+            line.claim = identifier_of(letter.letter) + " = " + *name;
+            return;
+        }
+    }
     const ClaimText text = claim_text(rhs, {.letters = letters_}),
                     own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
     const GiNaC::numeric exponent(1, power);

@@ -122,6 +122,12 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
 /// parameters.
 void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (line.status != LineStatus::mistake) return;
+    if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("the words may mean the energy of a part");
+        line.claim.clear();
+        return;
+    }
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !statement_->displayed && system_.mechanism().size() > 1;
     const bool is_excused =

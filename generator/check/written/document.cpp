@@ -236,6 +236,19 @@ void DocumentReader::end_waiting() {
     is_first_order_ = is_first_order;
 }
 
+/// "The kinetic energy is ½ m l² θ'²" is T = ….
+void DocumentReader::name_in_words(WrittenStatement& statement) {
+    const char* const name = spoken_energy(statement.words);
+    if (name == nullptr || statement.sides[0] == nullptr || statement.sides[0]->kind == Math::Kind::letter) return;
+    auto letter = std::make_shared<Math>();
+    letter->kind = Math::Kind::letter;
+    letter->letter.base = name;
+    letter->offset = statement.sides[0]->offset;
+    statement.sides.insert(statement.sides.begin(), std::move(letter));
+    statement.relations.push_back(Relation::equal);
+    statement.in_words = true;
+}
+
 void DocumentReader::add(std::vector<WrittenStatement> found, bool is_displayed) {
     end_waiting();
     for (WrittenStatement& one : found) {
@@ -251,6 +264,7 @@ void DocumentReader::add(std::vector<WrittenStatement> found, bool is_displayed)
         words_.clear();
         one.first_order = is_first_order_;
         one.displayed = is_displayed;
+        if (one.sides.size() == 1 && one.relations.empty()) name_in_words(one);
         if (!one.sides.empty() && one.sides[0] == nullptr) {  // goes on with the statement before
             const bool has_last = !list_.empty() && !list_.back().sides.empty();
             if (has_last) {

@@ -58,6 +58,7 @@ private:
     void formula(std::size_t begin, std::size_t end, WrittenNotation notation, bool is_displayed,
                  bool joins_rows = false);
     void add(std::vector<WrittenStatement> found, bool is_displayed);
+    static void name_in_words(WrittenStatement& statement);
     void end_waiting();
     void refuse(std::size_t begin, std::size_t end, std::string reason);
     std::size_t end_of_environment(const std::string& name, std::size_t from) const;

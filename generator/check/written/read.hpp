@@ -37,6 +37,7 @@ struct WrittenStatement {
     std::size_t offset = 0;             ///< of the statement in the document, or of what was not understood
     std::size_t length = 0;
     std::string words{};       ///< what stands before it in words since the last statement, blanks collapsed
+    bool in_words = false;     ///< whether its first side stands in words: "the kinetic energy is"
     bool displayed = false;    ///< in a display or a line of its own, not among words
     bool first_order = false;  ///< the words before it, in its paragraph, speak of small angles or of linearizing
     bool consequence = false;  ///< \implies, \Rightarrow, "therefore", "hence", "so" stand before it

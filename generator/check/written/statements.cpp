@@ -262,6 +262,7 @@ private:
             kind(i) == PartKind::letter && tokens_[i].letter == Letter{.base = "d"} && tokens_[i].dots == 0;
         for (std::size_t k = part.begin; k < part.end; ++k)
             if (kind(k) == PartKind::command && tokens_[k].text == "int") return true;
+        if (is_between_differentials(part)) return true;
         if (!is_d || kind(i + 1) != PartKind::letter || part.relations.empty()) return false;
         for (i += 2; i < end; ++i)
             if (kind(i) != PartKind::index && kind(i) != PartKind::begin_group && kind(i) != PartKind::end_group &&
@@ -269,6 +270,37 @@ private:
                 kind(i) != PartKind::text)
                 return false;
         return true;
+    }
+
+    /// r dθ = dx: each term has one d that is written together with its letter.
+    bool is_between_differentials(const Part& part) const {
+        if (part.relations.size() != 1) return false;
+        bool has_one = false;
+        std::size_t differentials = 0, tokens = 0;
+        const auto ends_term = [&](std::size_t i) {
+            const bool is_zero = tokens == 1 && kind(i - 1) == PartKind::number && tokens_[i - 1].text == "0";
+            const bool is_fine = differentials == 1 || is_zero || tokens == 0;
+            has_one = has_one || differentials == 1;
+            differentials = tokens = 0;
+            return is_fine;
+        };
+        for (std::size_t i = part.begin; i < part.end; ++i) {
+            const PartKind what = kind(i);
+            if (what == PartKind::plus || what == PartKind::minus || what == PartKind::relation) {
+                if (!ends_term(i)) return false;
+                continue;
+            }
+            ++tokens;
+            if (partner_[i] != no_partner && partner_[i] > i) {
+                i = partner_[i];
+            } else if (what == PartKind::divide || (what == PartKind::command && tokens_[i].text == "frac")) {
+                return false;
+            } else {
+                const bool is_d = what == PartKind::letter && tokens_[i].letter == Letter{.base = "d"};
+                differentials += is_d && kind(i + 1) == PartKind::letter && tokens_[i + 1].tight ? 1 : 0;
+            }
+        }
+        return ends_term(part.end) && has_one;
     }
 
     void fill(const Part& part, WrittenStatement& statement) {

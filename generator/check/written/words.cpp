@@ -210,6 +210,33 @@ bool is_word_for_letter(std::string_view word) {
     });
 }
 
+const char* spoken_energy(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ':')) sentence.pop_back();
+    static constexpr std::string_view verbs[] = {
+        "", " is", " becomes", " of the system is", " ist", " lautet", "为", "是", "：", "等于"};
+    static constexpr std::pair<std::string_view, const char*> names[] = {{"kinetic energy", "T"},
+                                                                         {"potential energy", "V"},
+                                                                         {"lagrangian", "L"},
+                                                                         {"kinetische energie", "T"},
+                                                                         {"potentielle energie", "V"},
+                                                                         {"potenzielle energie", "V"},
+                                                                         {"动能", "T"},
+                                                                         {"势能", "V"},
+                                                                         {"拉格朗日函数", "L"}};
+    for (const auto& [name, letter] : names)
+        for (const std::string_view verb : verbs)
+            if (sentence.ends_with(std::string(name) + std::string(verb))) return letter;
+    return nullptr;
+}
+
+bool speaks_of_constraint(std::string_view words) {
+    return has_phrase(
+        last_sentence(words),
+        "constraint*|constrained|rolls|rolling|without slipping|without sliding|bound by|约束*|纯滚动*|"
+        "无滑动*|zwangsbedingung*|bindung*|rollbedingung*");
+}
+
 bool is_word_for_constant(std::string_view word) {
     static constexpr std::string_view names[] = {"const",     "const.",   "constant",  "konst", "konst.",
                                                  "konstante", "konstant", "constante", "cte",   "cst"};

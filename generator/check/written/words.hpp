@@ -51,6 +51,12 @@ bool ends_sentence(std::string_view words);
 /// Whether they only join two formulas of one sentence: "or", "so".
 bool joins_formulas(std::string_view words);
 
+/// "The kinetic energy is": T, V or L, of which the formula that comes next is the value; null of other words.
+const char* spoken_energy(std::string_view words);
+
+/// "constraint", "rolls without slipping".
+bool speaks_of_constraint(std::string_view words);
+
 /// A word in a formula that can be the name of something (KE, const), and no word such as "and".
 bool is_word_for_letter(std::string_view word);
 
