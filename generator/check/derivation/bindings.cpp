@@ -39,9 +39,12 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
         for (std::size_t k = 0; k < things.size(); ++k)
             if (exactly ? plain_word(index) == plain_word(things[k]) : names(index, things[k], k))
                 result.push_back({things[k], true});
-        if (!result.empty()) return result;
+        if (!result.empty()) break;
     }
-    for (const std::string& thing : things) result.push_back({thing, things.size() == 1});
+    const bool is_number = std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!result.empty() && !is_number) return result;
+    for (const std::string& thing : things)  // an author counts in an order of his own
+        if (result.empty() || thing != result[0].name) result.push_back({thing, things.size() == 1});
     return result;
 }
 

@@ -53,6 +53,19 @@ ex along_deviations(const ex& residual, const BaseState& base, const GiNaC::symb
 
 }  // namespace
 
+bool may_rest(const BaseState& base, const DerivedSystem& system) {
+    const Mechanism& m = system.mechanism();
+    if (!system.equations().A.empty() || !system.scene().inputs.empty()) return true;
+    const GiNaC::symbol small("small");
+    for (const ex& force : system.conditions_of_rest()) {
+        if (m.z->tree_size(force) > longest || m.z->depends(force, {m.t})) continue;
+        const ex there =
+            along_deviations(force, base, small, system).subs(small == 0, GiNaC::subs_options::no_pattern);
+        if (!is_identically_zero(there, m)) return false;
+    }
+    return true;
+}
+
 bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_constant,
               const DerivedSystem& system) {
     const Mechanism& m = system.mechanism();

@@ -21,6 +21,9 @@ struct BaseState {
 /// All coordinates zero, and those of the scene's start if these are others.
 std::vector<BaseState> base_states(const Scene& scene);
 
+/// Whether the system may rest there: the forces vanish, as far as that shows without multipliers and inputs.
+bool may_rest(const BaseState& base, const DerivedSystem& system);
+
 /// Whether `residual`, as a function of the state alone, vanishes up to this order in the deviations from the base
 /// state. `up_to_constant`: its value there does not matter.
 bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool up_to_constant,

@@ -8,11 +8,35 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
 using Kind = Math::Kind;
+
+namespace {
+
+/// What goes on behind a formula until its sentence, its line or the next formula ends: "is conserved".
+std::string words_behind(const Written& written, const WrittenStatement& statement) {
+    constexpr std::size_t most = 80;
+    std::size_t begin = statement.offset + statement.length;
+    if (begin >= written.text.size()) return {};
+    std::string rest = written.text.substr(begin, most);
+    const std::size_t opened = rest.find_first_not_of("$ \n)\\");
+    if (opened == std::string::npos) return {};
+    rest.erase(0, opened);
+    std::size_t end = rest.find_first_of("$.\n\\;");
+    for (const char* const stop : {"。", "；"}) end = std::min(end, rest.find(stop));
+    return rest.substr(0, end);
+}
+
+bool is_rate_alone(const Math& side) {
+    return (side.kind == Kind::letter && side.dots == 1) ||
+           (side.kind == Kind::rate && side.dots == 1 && side.args[0]->kind == Kind::letter);
+}
+
+}  // namespace
 
 std::set<std::string> Marker::Sides::own_names() const {
     std::set<std::string> result = own_left.names;
@@ -51,7 +75,11 @@ void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
 void Marker::run() {
     for (std::size_t s = 0; s < written_.statements.size(); ++s) {
         statement_ = &written_.statements[s];
-        speaks_of_small_ = speaks_of_small_ || statement_->first_order;
+        if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
+        speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
+                           speaks_of_first_order(words_after_);  // … for small angles
+        words_after_ = words_behind(written_, *statement_);
+        said_ = statement_->words + " " + words_after_;
         hear(statement_->words);
         hear_conditions(statement_->words);
         if (statement_->sides.empty()) {
@@ -91,7 +119,10 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = LineStatus::undecided;
         line.reason = say("it could not be evaluated");
     }
-    weigh_condition(line, lhs, rhs);
+    try {
+        weigh_condition(line, lhs, rhs);
+    } catch (const NoMeaning&) {  // what has no value for itself is not excused
+    }
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
@@ -187,11 +218,8 @@ bool Marker::is_law_of_hamilton(const Sides& sides) const {
         return inner.kind == Kind::partial && inner.args[0]->kind == Kind::letter &&
                letters_.name_of(inner.args[0]->letter) == letters_.name_of(MechanicalQuantity::hamiltonian);
     };
-    const auto is_rate = [](const Math& side) {
-        return (side.kind == Kind::letter && side.dots == 1) ||
-               (side.kind == Kind::rate && side.dots == 1 && side.args[0]->kind == Kind::letter);
-    };
-    return (is_slope(*sides.lhs) && is_rate(*sides.rhs)) || (is_rate(*sides.lhs) && is_slope(*sides.rhs));
+    return (is_slope(*sides.lhs) && is_rate_alone(*sides.rhs)) ||
+           (is_rate_alone(*sides.lhs) && is_slope(*sides.rhs));
 }
 
 /// d/dt ∂L/∂q' = ∂L/∂q is right, and gives no equation of motion that is written out.
@@ -213,11 +241,13 @@ bool Marker::has_quantities(const Sides& sides) const {
 }
 
 void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row) {
+    if (is_wrong_derivative(line, sides)) return;
     line.status = LineStatus::right;
     MotionRows& rows = system_.rows();
     const bool is_identity = rows.is_identity(row) == true;
     const MotionRow own = rows.row(own_residual(sides));
     if (is_law_of_hamilton(sides)) return;
+    note_forces(sides);
     if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
     const bool founded =
@@ -232,6 +262,8 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
     if (is_of_own_gauge(line, sides) || holds_after_impact(line, sides)) return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
         is_equilibrium(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
+        is_on_branch(line, sides) ||
+
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
         holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) ||
         follows_with_all_forces(line, sides))
@@ -241,12 +273,35 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
 }
 
+/// p' = −∂H/∂q and q' = ∂H/∂p with the author's own H.
+bool Marker::is_from_own_hamiltonian(MarkedLine& line, const Sides& sides) {
+    const Math& rate = is_rate_alone(*sides.lhs) ? *sides.lhs : *sides.rhs;
+    const std::string& value = &rate == sides.lhs ? sides.own_right.text : sides.own_left.text;
+    if (!is_rate_alone(rate)) return false;
+    const Letter& letter = rate.kind == Kind::rate ? rate.args[0]->letter : rate.letter;
+    const std::string name = letters_.name_of(letter).value_or(""),
+                      H = letters_.name_of(MechanicalQuantity::hamiltonian);
+    const bool is_momentum = name.starts_with("p_") && !letters_.is_of_scene(name);
+    const std::string key =
+        is_momentum ? "diff(" + H + "," + name.substr(2) + ")" : "diff(" + H + ",p_" + name + ")";
+    const auto step = own_.steps().find(key);
+    if (step == own_.steps().end() || !own_.is_wrong_step(key)) return false;
+    MotionRows& rows = system_.rows();
+    const ex slope = own_.value(step->second);
+    if (rows.is_identity(rows.row((is_momentum ? -slope : slope) - own_.value(value))) != true) return false;
+    line.follows_from = own_.wrong_in({step->second});
+    line.status = LineStatus::follows;
+    line.reason = say("it follows from line {}", lines[*line.follows_from].line);
+    return true;
+}
+
 bool Marker::follows(MarkedLine& line, const Sides& sides) {
     MotionRows& rows = system_.rows();
     const MotionRow own = rows.row(own_residual(sides));
     line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
                                                       : own_.explained_by(own, speaks_of_small_);
     if (!line.follows_from) line.follows_from = own_.explained_by_relations(own.residual);
+    if (!line.follows_from && is_from_own_hamiltonian(line, sides)) return true;
     if (!line.follows_from && speaks_of_small_) {
         const BaseState base = near_ ? *near_ : base_states(system_.scene()).front();
         line.follows_from = own_.explained_by_linearizing(

@@ -72,7 +72,12 @@ private:
     ClaimWriting as_derived() const;
     bool is_of_quantity(MarkedLine& line, const Sides& sides);
     bool is_in_independent_rates(MarkedLine& line, const Sides& sides);
+    std::vector<BaseState> bases() const;
+    void note_base(const Math& lhs, const Math& rhs, const Letter& deviation);
     bool is_along_motion(MarkedLine& line, const Sides& sides);
+    bool is_lone_force(const Math& side) const;
+    void note_forces(const Sides& sides);
+    bool is_from_own_hamiltonian(MarkedLine& line, const Sides& sides);
     bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
     GiNaC::ex own_residual(const Sides& sides);
 
@@ -106,6 +111,12 @@ private:
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
+    bool is_written_rate(const Math& side) const;
+    bool is_wrong_derivative(MarkedLine& line, const Sides& sides);
+    bool is_on_branch(MarkedLine& line, const Sides& sides);
+    bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text);
+    void take_in_special_case(const Math& lhs, const Math& rhs);
+    bool holds_in_special_case(const Math& lhs, const Math& rhs);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
@@ -115,6 +126,7 @@ private:
     bool is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool speaks_of_acceleration() const;
     std::optional<GiNaC::ex> force_along_speed(const Letter& letter) const;
+    GiNaC::ex numbered_otherwise(const Letter& letter, const Math& value, const GiNaC::ex& part);
     std::optional<GiNaC::ex> other_force(const Letter& letter, const Math& value,
                                          const std::optional<GiNaC::ex>& force);
     void know_speed(const std::string& key, const std::vector<GiNaC::ex>& slopes);
@@ -163,19 +175,22 @@ private:
          speaks_of_period_ = false, speaks_of_roots_ = false, introduces_symbols_ = false,
          speaks_of_gibbs_ = false, speaks_of_impact_ = false;
     const WrittenStatement* statement_ = nullptr;
-    std::optional<BaseState> near_;    ///< about which the derivation linearizes, once a line has shown it
-    bool speaks_of_small_ = false;     ///< whether the derivation has begun to linearize
-    bool solves_constraints_ = false;  ///< whether its ∂/∂ψ' have been those of the independent rates
-    bool goes_on_ = false;             ///< whether the words only join two formulas of one sentence
-    bool has_own_gauge_ = false;       ///< whether its L differs from the scene's by a total derivative
+    std::string words_after_, said_;    ///< behind the statement, and with those before it
+    std::vector<BaseState> own_bases_;  ///< θ = π + ε: about which the author deviates
+    std::optional<BaseState> near_;     ///< about which the derivation linearizes, once a line has shown it
+    bool speaks_of_small_ = false;      ///< whether the derivation has begun to linearize
+    bool solves_constraints_ = false;   ///< whether its ∂/∂ψ' have been those of the independent rates
+    bool goes_on_ = false;              ///< whether the words only join two formulas of one sentence
+    bool has_own_gauge_ = false;        ///< whether its L differs from the scene's by a total derivative
     static constexpr int lines_of_condition = 2;  ///< a display ends a sentence without a full stop
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
     int under_condition_ = 0;                     ///< how many lines the condition that the words state may govern
-    bool is_special_case_ = false;  ///< whether the derivation has set parameters equal, or to numbers
-    std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
+    GiNaC::exmap special_values_;                 ///< of parameters, as the derivation states them
+    std::set<std::string> kept_;  ///< names of constants of the motion that are momenta, or written as such
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
+    bool has_told_forces_ = false;     ///< whether a line has shown which forces are in Q
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
 };
 

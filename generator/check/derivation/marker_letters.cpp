@@ -67,6 +67,7 @@ void Marker::hear(const std::string& words) {
         }))
         return;
     std::string spoken;
+    std::set<std::string> all_spoken;
     const auto look_for = [&](const std::string& name) {
         const auto is_part_of_word = [](char c) {
             return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -78,11 +79,12 @@ void Marker::hear(const std::string& words) {
                                                (at > 8 && words.compare(at - 9, 9, "particle ") == 0)));
             if (alone && (at == 0 || !is_part_of_word(words[at - 1])) &&
                 (end == words.size() || !is_part_of_word(words[end])))
-                spoken = name;
+                spoken = name, all_spoken.insert(name);
         }
     };
     for (const Particle& p : system_.scene().particles) look_for(p.name.text);
     for (const Body& b : system_.scene().bodies) look_for(b.name.text);
+    if (all_spoken.size() > 1) spoken = spoken_;                     // of both
     if (spoken.empty() && !statement_->displayed) spoken = spoken_;  // the sentence goes on
     if (spoken != spoken_) {
         for (const Letter& letter : roaming_) letters_.release(letter);
@@ -167,6 +169,7 @@ bool Marker::bind_to_part(const Letter& letter, const Math* value) {
     if (of_motion && !starred) return false;
     std::optional<ex> part = part_named(letter, letters_, system_);
     if (!part) part = force_along_speed(letter);
+    if (part && value != nullptr) part = numbered_otherwise(letter, *value, *part);
     if (value != nullptr && letter.base == "F" && letter.raised.empty()) part = other_force(letter, *value, part);
     if (!part) return false;
     const std::string name = bind(letter, *part);
@@ -178,6 +181,25 @@ bool Marker::bind_to_part(const Letter& letter, const Math* value) {
                                                    : "";
     if (!whole.empty()) own_.count_as_part(name, whole, *part);
     return true;
+}
+
+/// T_1 is that of the first body in the author's order, which is another one where that makes the line right.
+ex Marker::numbered_otherwise(const Letter& letter, const Math& value, const ex& part) {
+    const std::string& index = letter.index;
+    const bool is_number = index.size() == 1 && index[0] >= '1' && index[0] <= '9' && letter.raised.empty();
+    const bool is_energy = letter.base == "T" || letter.base == "V" || letter.base == "K" || letter.base == "U";
+    if (!is_number || !is_energy) return part;
+    MotionRows& rows = system_.rows();
+    const ex stated = truth_.value(claim_text(value, {.letters = letters_}).text);
+    if (rows.is_identity(rows.row(stated - part)) == true) return part;
+    for (char k = '1'; k <= '9'; ++k) {
+        Letter other = letter;
+        other.index = k;
+        const std::optional<ex> candidate = part_named(other, letters_, system_);
+        if (!candidate) break;
+        if (rows.is_identity(rows.row(stated - *candidate)) == true) return *candidate;
+    }
+    return part;
 }
 
 /// F_θ = 0 is of the forces that are not in V if that is what makes it right.
@@ -256,6 +278,17 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
     const bool is_one = std::any_of(momenta.begin(), momenta.end(), [&](const ex& momentum) {
         return rows.is_identity(rows.row(stated - momentum)) == true;
     });
+    const bool is_kept = rows.holds(rows.row(m.time_derivative({stated})[0])) == true;
+    if (!is_one && !is_kept && speaks_of_conservation(said_)) {
+        line.status = LineStatus::mistake;
+        line.reason = say("it does not keep its value");
+        return;
+    }
+    if (!is_one && is_kept) {
+        line.status = LineStatus::right;
+        line.reason = say("a constant of the motion");
+        return;
+    }
     line.status = is_one ? LineStatus::right : LineStatus::undecided;
     line.reason = is_one ? say("a generalized momentum")
                          : say("an angular momentum that is none of the generalized momenta; it is not judged");
@@ -270,7 +303,7 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
         return false;
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
-    if (!holds && !is_word_for_constant(letter.letter.base)) return false;
+    if (!holds && !is_word_for_constant(letter.letter.base)) return is_said_to_be_conserved(line, text);
     std::string name =
         letters_.free_name(is_word_for_constant(letter.letter.base) ? "const" : identifier_of(letter.letter));
     while (constants_.contains(name)) name = letters_.free_name(name + "_");  // each "const" is one of its own
@@ -315,7 +348,8 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         const bool is_size = power == 1 && binding.text.starts_with("sqrt(");  // v = l θ' has a sign
         if (is_size && rows.is_identity(rows.row(GiNaC::pow(truth, 2) - GiNaC::pow(value, 2))) == true)
             return tell(value, binding.point, true);
-        if (binding.named && !named) named = truth, point = binding.point;
+        const bool is_said = binding.spoken && speaks_of_motion_of(statement_->words, spoken_);
+        if ((binding.named || is_said) && !named) named = truth, point = binding.point;
     }
     const bool is_constant = std::all_of(text.names.begin(), text.names.end(), [&](const std::string& name) {
         return letters_.is_of_scene(name) && !letters_.moves(name);
@@ -422,6 +456,7 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     known_[name] = *truth;
     truth_.know(name, *truth);
     own_.state(name, own.value_or(*truth), own_.wrong_in(sides.own_names()));
+    note_base(lhs, rhs, letter);
     line.status = LineStatus::definition;  // it may absorb any slip
     line.claim = sides.left.text + " = " + sides.right.text;
     line.reason = say("it determines {}", name);

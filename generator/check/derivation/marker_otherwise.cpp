@@ -106,16 +106,38 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// Q_θ alone on a side.
+bool Marker::is_lone_force(const Math& side) const {
+    return side.kind == Kind::letter && side.dots == 0 && quantity_of(side.letter) == MechanicalQuantity::force;
+}
+
+/// Whether the reading of Q_θ = … is that of the other forces too: it says which forces the derivation counts.
+void Marker::note_forces(const Sides& sides) {
+    if (!is_lone_force(*sides.lhs) && !is_lone_force(*sides.rhs)) return;
+    const bool before = all_forces_;
+    use_all_forces(!before);
+    const MotionRow other = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    use_all_forces(before);
+    if (system_.rows().holds(other) != true) has_told_forces_ = true;
+}
+
 bool Marker::holds_with_all_forces(MarkedLine& line, const Sides& sides) {
     const auto speaks = [](const std::set<std::string>& names) {
         return std::any_of(names.begin(), names.end(),
                            [](const std::string& name) { return name.starts_with("Q_"); });
     };
     if (!speaks(sides.left.names) && !speaks(sides.right.names)) return false;
+    const bool states_one = is_lone_force(*sides.lhs) || is_lone_force(*sides.rhs);
     const bool before = all_forces_;
     use_all_forces(!before);
     const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    if (states_one && has_told_forces_) {  // one text has one meaning of Q
+        if (system_.rows().holds(row) == true) notes_.back().claim = {};
+        use_all_forces(before);
+        return false;
+    }
     if (system_.rows().holds(row) == true) {
+        has_told_forces_ = has_told_forces_ || states_one;
         judge_true(line, sides, row);
         if (line.reason.empty())
             line.reason = all_forces_ ? say("here generalized forces are those of all forces, with those of V")

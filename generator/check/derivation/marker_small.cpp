@@ -60,7 +60,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     const Expression square = parsed(omega);
     if (!square) return false;
     bool known = false;
-    for (const BaseState& state : near_ ? std::vector<BaseState>{*near_} : base_states(system_.scene())) {
+    for (const BaseState& state : bases()) {
         const CheckedFrequency found =
             check_frequency({system_.scene(), system_.mechanism(), parsed(state), system_.sheets()}, square);
         if (found.verdict == Verdict::undecided) continue;
@@ -70,6 +70,12 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
         line.status = LineStatus::right_near;
         line.reason = say("a frequency of small vibrations about {}", state.text);
         break;
+    }
+    if (!known && (speaks_of_frequency_ || speaks_of_period_)) {
+        if (!letters_.name_of(letter.letter)) define(line, letter, rhs, power);
+        line.status = LineStatus::undecided;
+        line.reason = say("no state of rest is known about which it is a frequency");
+        return true;
     }
     if (!known || (line.status != LineStatus::right_near && !speaks_of_frequency_ && !speaks_of_period_))
         return false;
@@ -193,6 +199,41 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// The states about which lines may be linearized: the one that a line has shown, or those that the author
+/// deviates from, or the scene's own.
+std::vector<BaseState> Marker::bases() const {
+    if (near_) return {*near_};
+    return own_bases_.empty() ? base_states(system_.scene()) : own_bases_;
+}
+
+/// r = l_0 + m g/k + ξ: a deviation ξ from a state of rest.
+void Marker::note_base(const Math& lhs, const Math& rhs, const Letter& deviation) {
+    const Math& coordinate = lhs.kind == Kind::letter ? lhs : rhs;
+    const Math& sum = &coordinate == &lhs ? rhs : lhs;
+    if (coordinate.kind != Kind::letter || coordinate.dots > 0 || sum.kind != Kind::sum) return;
+    const auto name = letters_.name_of(coordinate.letter);
+    const std::vector<std::string>& all = letters_.coordinates();
+    if (!name || std::find(all.begin(), all.end(), *name) == all.end()) return;
+    Math rest = sum;
+    std::erase_if(rest.args, [&](const MathPtr& term) {
+        const Math& inner = term->kind == Kind::negate ? *term->args[0] : *term;
+        return inner.kind == Kind::letter && inner.letter == deviation;
+    });
+    if (rest.args.size() + 1 != sum.args.size()) return;
+    const ClaimText value = claim_text(rest.args.size() == 1 ? *rest.args[0] : rest, as_written());
+    if (!holds_letters_only(value.names, system_.scene())) return;
+    std::vector<BaseState> bases = own_bases_.empty() ? base_states(system_.scene()) : own_bases_;
+    for (BaseState& base : bases) {
+        base.text.clear();
+        for (auto& [q, place] : base.values) {
+            if (q == *name) place = value.text;
+            base.text += (base.text.empty() ? "" : ", ") + q + " = " + place;
+        }
+    }
+    own_bases_ = std::move(bases);
+    near_.reset();
+}
+
 bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
     if (!speaks_of_small_) return false;
     const auto speaks_of = [&](MechanicalQuantity quantity) {
@@ -202,8 +243,8 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
     const bool of_potential = speaks_of(MechanicalQuantity::potential) ||
                               speaks_of(MechanicalQuantity::lagrangian) || speaks_of(MechanicalQuantity::energy);
     const int order = of_potential || speaks_of(MechanicalQuantity::kinetic) ? 2 : 1;
-    std::vector<BaseState> bases = near_ ? std::vector<BaseState>{*near_} : base_states(system_.scene());
-    for (const BaseState& base : bases) {
+    for (const BaseState& base : bases()) {
+        if (!may_rest(base, system_)) continue;
         bool holds = is_small(residual, base, order, of_potential, system_);
         if (!holds && order == 1) {
             const auto checked = checked_near(notes_.back().claim, base, system_, known_);

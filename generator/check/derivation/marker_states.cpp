@@ -105,7 +105,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
     if (states_special_case(lhs, rhs, all)) {
-        is_special_case_ = true;
+        take_in_special_case(lhs, rhs);
         return tell(say("a condition on parameters; lines are judged for all their values"));
     }
     const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
@@ -130,8 +130,13 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     }
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !statement_->displayed && system_.mechanism().size() > 1;
-    const bool is_excused =
-        is_special_case_ || keeps_its_start(lhs, rhs) || (!is_energy && (under_condition_ > 0 || is_rest_alone));
+    if (holds_in_special_case(lhs, rhs)) {
+        line.status = LineStatus::right;
+        line.reason = say("for the values of parameters that the derivation states");
+        notes_.back().claim = {};
+        return;
+    }
+    const bool is_excused = keeps_its_start(lhs, rhs) || (!is_energy && (under_condition_ > 0 || is_rest_alone));
     if (!is_excused) return;
     line.status = LineStatus::not_about_scene;
     line.reason = say("the words state a condition for it; lines are judged for all motions");
@@ -141,7 +146,7 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
 /// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
 /// motions.
 bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
-    if (!from_rest_) return false;
+    if (!from_rest_ || displacements_ != nullptr) return false;
     const Mechanism& m = system_.mechanism();
     const GiNaC::ex residual =
         truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);

@@ -171,9 +171,7 @@ std::vector<std::string> Marker::missing() {
     const Mechanism& m = system_.mechanism();
     const Equations& e = system_.equations();
     for (int i = 0; i < e.size(); ++i) {
-        GiNaC::exvector terms{-e.forcing(i), -system_.reaction(i)};
-        for (int j = 0; j < e.size(); ++j) terms.push_back(e.M(i, j) * m.qddot[j]);
-        if (!rows.follows(rows.row(GiNaC::add(std::move(terms))), right)) result.push_back(m.q[i].get_name());
+        if (!rows.follows(rows.row(system_.motion_residual(i)), right)) result.push_back(m.q[i].get_name());
     }
     return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lines with virtual displacements: δx = l cos θ δθ, δW = Σ Q δq, the general equation of dynamics.
 #include <algorithm>
+#include <set>
 
 #include "base/language/say.hpp"
 #include "check/derivation/marker.hpp"
@@ -22,7 +23,8 @@ bool holds_variation(const Math& math) {
 /// δW, or a sum of them.
 bool is_virtual_work(const Math& math) {
     if (math.kind == Kind::call && math.text == "sum" && !math.args.empty()) return is_virtual_work(*math.args[0]);
-    return math.kind == Kind::variation && math.args[0]->kind == Kind::letter && math.args[0]->letter.base == "W";
+    return math.kind == Kind::variation && math.args[0]->kind == Kind::letter &&
+           (math.args[0]->letter.base == "W" || math.args[0]->letter.base == "A");
 }
 
 bool is_zero(const Math& math) {
@@ -112,22 +114,26 @@ void Marker::judge_work(MarkedLine& line, const Math& rhs) {
         own.push_back(own_.value(text.text));
     }
     MotionRows& rows = system_.rows();
-    const auto first_wrong = [&](bool all) -> std::optional<std::size_t> {
+    const auto wrong_ones = [&](bool all) {
         const std::vector<ex> forces = system_.forces(all);
+        std::set<std::size_t> result;
         for (std::size_t i = 0; i < truth.size(); ++i)
-            if (rows.is_identity(rows.row(truth[i] - forces[i])) != true) return i;
-        return std::nullopt;
+            if (rows.is_identity(rows.row(truth[i] - forces[i])) != true) result.insert(i);
+        return result;
     };
-    std::optional<std::size_t> wrong = first_wrong(all_forces_);
-    if (wrong && !first_wrong(!all_forces_)) {
+    std::set<std::size_t> wrong_here = wrong_ones(all_forces_), wrong_otherwise = wrong_ones(!all_forces_);
+    if (wrong_otherwise.size() < wrong_here.size()) {
         use_all_forces(!all_forces_);
-        wrong.reset();
+        std::swap(wrong_here, wrong_otherwise);
     }
+    std::optional<std::size_t> wrong;
+    for (const std::size_t i : wrong_here)  // rather one that is wrong in both readings
+        if (!wrong || (!wrong_otherwise.contains(*wrong) && wrong_otherwise.contains(i))) wrong = i;
     line.status = wrong ? LineStatus::mistake : LineStatus::right;
     const std::string name = "Q_" + m.q[wrong ? static_cast<int>(*wrong) : 0].get_name();
     const std::string& text = texts[wrong.value_or(0)];
     line.claim = name + " = " + text;
-    notes_.back().claim = {.lhs = name, .rhs = text};
+    if (!wrong || wrong_otherwise.contains(*wrong)) notes_.back().claim = {.lhs = name, .rhs = text};
     for (std::size_t i = 0; i < own.size(); ++i) {
         const std::string force = "Q_" + m.q[i].get_name();
         const bool same = rows.is_identity(rows.row(own[i] - truth_.value(force))) == true;

@@ -97,7 +97,9 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                 const auto name = letters.name_of(*letter);
                 const bool is_named_here = turned && statement.relations[k] == Relation::identical &&
                                            alone_in(value) == nullptr;  // T + V =: K
-                if (is_known && (is_named_here || (is_general && !name))) letters.leave_to_author(*letter);
+                const bool is_own_q = letter->base == "q" && !letter->index.empty();
+                if (is_known && (is_named_here || ((is_general || is_own_q) && !name)))
+                    letters.leave_to_author(*letter);
                 if (is_any_energy(*letter) && name && !letters.is_of_scene(*name) && is_known &&
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
@@ -177,7 +179,8 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
         const bool bears_out = std::any_of(lines.begin(), lines.end(), [&](const MarkedLine& line) {
             return line.status == LineStatus::follows && line.follows_from == k;  // T = ½ m v² with this v
         });
-        if (!letter || !letter->index.empty() || bears_out || uses(lines, k, *letter).all > 0) continue;
+        const bool is_told = speaks_of_conservation(written_.statements[lines[k].statement].words);
+        if (!letter || !letter->index.empty() || bears_out || is_told || uses(lines, k, *letter).all > 0) continue;
         lines[k].status = LineStatus::undecided;
         lines[k].checked = {};
         const std::string name = identifier_of(*letter);

@@ -42,6 +42,12 @@ ex DerivedSystem::reaction(int i) const {
     return m_.z->name(GiNaC::add(std::move(terms)));
 }
 
+ex DerivedSystem::motion_residual(int i) const {
+    GiNaC::exvector terms{-e_.forcing(i), -reaction(i)};
+    for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * m_.qddot[static_cast<std::size_t>(j)]);
+    return GiNaC::add(std::move(terms));
+}
+
 // Kane's equations solve the speeds and the constraints for the rates.
 std::vector<DerivedSystem::IndependentSpeed> DerivedSystem::solved_speeds() const {
     const bool any = std::any_of(m_.constraints.begin(), m_.constraints.end(),

@@ -51,6 +51,8 @@ public:
     std::vector<GiNaC::ex> forces(bool with_potential) const;
     /// Σ λ ∂f/∂q of the constraints along coordinate i.
     GiNaC::ex reaction(int i) const;
+    /// The equation of motion along coordinate i, as what vanishes.
+    GiNaC::ex motion_residual(int i) const;
 
     /// A speed of motions that the constraints allow: one of the scene's, or one that is chosen as `derive` does.
     struct IndependentSpeed {

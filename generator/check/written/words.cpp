@@ -89,9 +89,19 @@ std::string last_sentence(std::string_view words) {
 
 }  // namespace
 
+bool speaks_of_exact_motion(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "exact equation*|the exact|exactly|full equation*|for arbitrary|arbitrary angles|arbitrary motion*|"
+        "for large|large motion*|large angle*|large amplitude*|no approximation*|精确*|任意角*|大角度*|"
+        "大幅*|exakte*|beliebige*|große auslenkung*|große winkel*|exacta*");
+}
+
 bool speaks_of_first_order(std::string_view words) {
     // "We do not linearize yet", "small oscillations are treated later"
-    static constexpr std::string_view denials = "not|without|later|nicht|ohne|später|不必*|无需*|不作*|以后*";
+    static constexpr std::string_view denials =
+        "not|no|without|later|before|will follow|next section|next chapter|in contrast|unlike|nicht|kein*|ohne|"
+        "später|bevor|不必*|无需*|不作*|不用*|以后*|未*|尚未*|之前*|下一节*";
     static constexpr std::string_view phrases =
         "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
         "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
@@ -99,7 +109,12 @@ bool speaks_of_first_order(std::string_view words) {
         "second order terms|quadratic "
         "terms|小角*|微小*|微振动*|微幅*|很小*|略去高阶*|高阶小量*|一次近似*|小振动*|小摆*|线性化*|小幅*|一阶近似*"
         "|kleine winkel*|"
-        "kleine auslenkung*|kleine schwingung*";
+        "kleine auslenkung*|kleine schwingung*|für kleine|fuer kleine|kleiner auslenkung*|kleinen "
+        "auslenkung*|kleine "
+        "ausschl*|kleinen ausschl*|kleiner ausschl*|linearisier*|oscilaciones pequeñas|pequeñas "
+        "oscilaciones|pequeño|"
+        "pequeños ángulos|ángulos pequeños|aproximación lineal|linealiz*|petites oscillations|petits angles|"
+        "linéaris*";
     const std::string lower = in_lower_case(words);
     for (std::size_t begin = 0; begin < lower.size();) {
         const std::size_t end = end_of_first_sentence(lower, begin);
@@ -152,10 +167,13 @@ bool speaks_of_special_case(std::string_view words) {
 }
 
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(last_sentence(words),
-                      "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
-                      "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
-                      "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
+    return has_phrase(
+        last_sentence(words),
+        "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
+        "for steady rotation|in steady rotation|relative equilibrium*|regelmäßige präzession|reguläre "
+        "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
+        "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
+        "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
 }
 
 bool speaks_of_rest(std::string_view words) {
@@ -197,6 +215,7 @@ bool explains(std::string_view words) {
 
 bool is_word_for_letter(std::string_view word) {
     if (word.empty() || word.size() > 40) return false;
+    if (is_word_for_constant(word)) return true;
     static constexpr std::string_view no_names[] = {
         "and",       "or",        "where",  "with",    "for",       "if",   "when",  "so",  "thus", "hence",
         "therefore", "otherwise", "then",   "since",   "because",   "at",   "as",    "in",  "on",   "is",
@@ -230,6 +249,24 @@ const char* spoken_energy(std::string_view words) {
     return nullptr;
 }
 
+bool speaks_of_conservation(std::string_view words) {
+    return has_phrase(
+        last_sentence(words),
+        "conserved|conservation|conserves|energy integral|first integral|constant of the motion|constant of "
+        "motion|integral of motion|integrating|integrate|integration gives|守恒*|积分*|erhalten|"
+        "erhaltung*|erhaltungssatz|integration*|se conserva|conservación*|integrando|se conserve");
+}
+
+bool speaks_of_motion_of(std::string_view words, const std::string& name) {
+    const std::string sentence = last_sentence(words), lower = in_lower_case(name);
+    for (const char* const what :
+         {"velocity", "speed", "position", "place", "coordinates", "coordinate", "acceleration"})
+        for (const char* const the : {" of the ", " of "})
+            if (sentence.find(what + (the + lower)) != std::string::npos) return true;
+    return has_phrase(sentence,
+                      "the " + lower + " is at|the " + lower + " has the velocity|the " + lower + " moves with");
+}
+
 bool speaks_of_constraint(std::string_view words) {
     return has_phrase(
         last_sentence(words),
@@ -239,7 +276,8 @@ bool speaks_of_constraint(std::string_view words) {
 
 bool is_word_for_constant(std::string_view word) {
     static constexpr std::string_view names[] = {"const",     "const.",   "constant",  "konst", "konst.",
-                                                 "konstante", "konstant", "constante", "cte",   "cst"};
+                                                 "konstante", "konstant", "constante", "cte",   "cst",
+                                                 "常数",      "常量",     "恒量",      "常值"};
     return std::find(std::begin(names), std::end(names), in_lower_case(word)) != std::end(names);
 }
 

@@ -17,6 +17,9 @@ bool speaks_of_consequence(std::string_view words);
 /// "small angles", "linearize", "first order".
 bool speaks_of_first_order(std::string_view words);
 
+/// "The exact equation", "for arbitrary angles": it is no longer linearized.
+bool speaks_of_exact_motion(std::string_view words);
+
 /// "If the wedge is held", "for a cart that does not move": what the last sentence says holds for a part of the
 /// motions. "When the bead moves", "if we insert" are no conditions.
 bool states_condition(std::string_view words);
@@ -53,6 +56,12 @@ bool joins_formulas(std::string_view words);
 
 /// "The kinetic energy is": T, V or L, of which the formula that comes next is the value; null of other words.
 const char* spoken_energy(std::string_view words);
+
+/// "is conserved", "the energy integral": what is said then keeps its value.
+bool speaks_of_conservation(std::string_view words);
+
+/// "The velocity of the bob is": it is that of the thing of this name.
+bool speaks_of_motion_of(std::string_view words, const std::string& name);
 
 /// "constraint", "rolls without slipping".
 bool speaks_of_constraint(std::string_view words);

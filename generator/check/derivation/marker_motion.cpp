@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is true in motion, on a branch, or for some values of the parameters alone: derivatives that are written
+// out, roots of first integrals, special cases.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/written/words.hpp"
+#include "model/energy.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+bool holds_derivative(const Math& math) {
+    return math.kind == Kind::partial || math.kind == Kind::rate || math.kind == Kind::variation ||
+           std::any_of(math.args.begin(), math.args.end(),
+                       [](const MathPtr& arg) { return holds_derivative(*arg); });
+}
+
+/// √(…) with factors before it.
+bool is_root_sign(const Math& math) {
+    if (math.kind == Kind::call) return math.text == "sqrt";
+    const bool is_factor = math.kind == Kind::product || math.kind == Kind::negate || math.kind == Kind::quotient;
+    return is_factor &&
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_root_sign(*arg); });
+}
+
+}  // namespace
+
+/// d/dt of something written, or the rate of a quantity that the derivation has named.
+bool Marker::is_written_rate(const Math& side) const {
+    if (side.kind == Kind::rate) return true;
+    if (side.kind != Kind::letter) return false;
+    const auto name = letters_.name_of(side.letter);
+    if (!name || letters_.is_of_scene(*name) || !known_.contains(*name)) return false;
+    const Mechanism& m = system_.mechanism();
+    return side.dots > 0 || m.z->depends(known_.at(*name), m.qddot);  // F* of Kane
+}
+
+/// d/dt(m r² φ') = m r φ'' + 2 m r' φ': both sides vanish in motion, and yet it is no derivative.
+bool Marker::is_wrong_derivative(MarkedLine& line, const Sides& sides) {
+    const auto is_plain = [&](const Math& side) {
+        return !holds_derivative(side) && !(side.kind == Kind::number && side.text == "0") &&
+               !is_written_rate(side);
+    };
+    const bool turned = is_written_rate(*sides.rhs) && is_plain(*sides.lhs);
+    if (!turned && !(is_written_rate(*sides.lhs) && is_plain(*sides.rhs))) return false;
+    MotionRows& rows = system_.rows();
+    const Mechanism& m = system_.mechanism();
+    const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text);
+    if (rows.holds(rows.row(left)) != true || rows.holds(rows.row(right)) != true) return false;
+    const ex difference = m.z->name(left - right);
+    const bool is_accelerated = m.z->depends(left, m.qddot) || m.z->depends(right, m.qddot);
+    if (is_identically_zero(difference, m)) return false;
+    if (is_accelerated && rows.is_identity(rows.row(difference)) == true) return false;  // on the constraints
+    line.status = LineStatus::mistake;
+    line.reason = say("both sides vanish in motion, but one is not the derivative that the other is");
+    notes_.back().claim = {};
+    return true;
+}
+
+/// r' = √(2(E − V)/m): true on the branch that the root shows.
+bool Marker::is_on_branch(MarkedLine& line, const Sides& sides) {
+    if (!is_root_sign(*sides.lhs) && !is_root_sign(*sides.rhs)) return false;
+    const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text);
+    const ex difference = GiNaC::pow(left, 2) - GiNaC::pow(right, 2);
+    MotionRows& rows = system_.rows();
+    if (rows.holds(rows.row(difference)) != true) return false;
+    line.status = LineStatus::right;
+    line.reason = say("on the branch where both sides have one sign");
+    notes_.back().claim = {};
+    return true;
+}
+
+/// "Momentum is conserved, so … = C": the words say that it keeps its value. Returns whether they do.
+bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text) {
+    const Mechanism& m = system_.mechanism();
+    const ex value = truth_.value(text.text);
+    if (!speaks_of_conservation(said_) || !m.z->depends(value, m.qdot)) return false;
+    if (m.z->depends(value, m.qddot)) return false;
+    line.status = LineStatus::mistake;
+    line.reason = say("it does not keep its value");
+    return true;
+}
+
+/// m_1 = m_2 or k = 40: from then on lines may hold for these values alone.
+void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
+    const Math& letter = lhs.kind == Kind::letter ? lhs : rhs;
+    const Math& other = lhs.kind == Kind::letter ? rhs : lhs;
+    if (letter.kind != Kind::letter) {
+        under_condition_ = lines_of_condition;
+        return;
+    }
+    try {
+        const ex name = truth_.value(claim_text(letter, as_written()).text);
+        const ex value = truth_.value(claim_text(other, as_written()).text);
+        if (GiNaC::is_a<GiNaC::symbol>(name)) special_values_[name] = value;
+    } catch (const NoMeaning&) {
+        under_condition_ = lines_of_condition;
+    }
+}
+
+/// Whether the line follows from the equations of motion for the values that the derivation has stated.
+bool Marker::holds_in_special_case(const Math& lhs, const Math& rhs) {
+    if (special_values_.empty()) return false;
+    const Mechanism& m = system_.mechanism();
+    const ex residual =
+        truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
+    std::vector<ex> all{residual};
+    for (int i = 0; i < m.size(); ++i) all.push_back(system_.motion_residual(i));
+    std::vector<ex> special;
+    try {
+        special = substitute(*m.z, all, special_values_);
+    } catch (const std::exception&) {  // m = 0 where something is divided by m
+        return false;
+    }
+    MotionRows& rows = system_.rows();
+    std::vector<MotionRow> given;
+    std::vector<const MotionRow*> pointers;
+    for (std::size_t k = 1; k < special.size(); ++k) given.push_back(rows.row(special[k]));
+    for (const MotionRow& row : given) pointers.push_back(&row);
+    return rows.follows(rows.row(special[0]), pointers);
+}
+
+}  // namespace alembert
