@@ -74,11 +74,21 @@ std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
     return result;
 }
 
+/// v_r, v_φ, v_ξ, a_t: of a component, along axes that the author knows.
+bool is_component(const std::string& index) {
+    static constexpr const char* indices[] = {"r",  "rho", "phi",  "varphi",   "theta", "t",   "n",   "tau", "s",
+                                              "xi", "eta", "zeta", "parallel", "perp",  "rad", "tan", "h",   "v"};
+    std::string plain = index;
+    std::erase(plain, '\\');
+    return std::find(std::begin(indices), std::end(indices), plain) != std::end(indices);
+}
+
 /// "x" of an index "x" or "1x": the component that it speaks of, and the rest of it. No component where the whole
 /// index is the name of one of the things: "cylinder".
 std::pair<int, std::string> component_in(const std::string& index, const std::vector<std::string>& things) {
     if (std::any_of(things.begin(), things.end(),
-                    [&](const std::string& thing) { return plain_word(thing) == plain_word(index); }))
+                    [&](const std::string& thing) { return plain_word(thing) == plain_word(index); }) ||
+        is_component(index))
         return {-1, index};
     std::string rest = index;
     for (int axis = 0; axis < 3; ++axis) {
@@ -128,7 +138,8 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
     for (const Point& p : scene.points) things.push_back(p.name.text);
     const auto [component, rest] = component_in(letter.index, things);
     if (base == "v" || base == "a" || base == "r")
-        for (const Place3& point : points_for(component < 0 ? letter.index : rest, scene)) {
+        for (Place3 point : points_for(component < 0 ? letter.index : rest, scene)) {
+            if (component < 0 && is_component(letter.index)) point.named = false;
             const char* const vector = base == "v" ? "vel" : base == "a" ? "acc" : "pos";
             if (component >= 0)
                 add_component(result, point, vector, component);
@@ -147,6 +158,18 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
             result.push_back({.text = text, .named = body.named});
             result.push_back({.text = "-" + text, .named = body.named, .reversed = true});
         }
+    return result;
+}
+
+std::vector<Binding> other_axes_of(const Letter& letter, const Scene& scene) {
+    std::vector<Binding> result;
+    if (letter.base.size() != 1 || std::string("xyzXYZ").find(letter.base[0]) == std::string::npos) return result;
+    std::vector<std::string> frames{"N"};
+    for (const Frame& frame : scene.frames) frames.push_back(frame.name.text);
+    for (const Place3& point : points_for(letter.index, scene))
+        for (const std::string& frame : frames)
+            for (const char* const axis : axis_names)
+                result.push_back({.text = fmt::format("dot(pos({}),{}({}))", point.name, axis, frame)});
     return result;
 }
 

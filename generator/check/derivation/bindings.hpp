@@ -27,6 +27,9 @@ struct Binding {
 
 std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene);
 
+/// x_1 along all axes of space and of the scene's frames, as an author may lay his own.
+std::vector<Binding> other_axes_of(const Letter& letter, const Scene& scene);
+
 /// The points that a vector letter may stand for, \vec r_1 or \mathbf{v}_C: three components each.
 struct VectorBinding {
     std::string component[3];

@@ -287,8 +287,13 @@ private:
     /// δθ as its value, δx of a place x as Σ ∂x/∂q δq.
     void variation(const Math& math) {
         const Math& of = *math.args[0];
-        const bool is_of_time = of.kind == Kind::letter && of.letter == Letter{.base = "t"};  // dx = v dt
-        if (how_.displacements == nullptr || is_of_time || moves_in_time(of))
+        if (how_.differentials_are_rates) {  // dx = v dt
+            out() += '(';
+            term(of);
+            out() += ")'";
+            return;
+        }
+        if (how_.displacements == nullptr || moves_in_time(of))
             refuse(math, say("a virtual displacement has a meaning for coordinates and places only"));
         if (of.kind == Kind::letter)
             if (const auto value = how_.displacements->find(name(of, false)); value != how_.displacements->end()) {
@@ -347,6 +352,11 @@ Lone lone_letter(const Math& side) {
                            side.args[0]->dots == 0 && side.args[1]->kind == Kind::number &&
                            side.args[1]->text == "2";
     return is_square ? Lone{side.args[0].get(), 2} : Lone{};
+}
+
+bool has_rates(const Math& math) {
+    return ((math.kind == Math::Kind::letter || math.kind == Math::Kind::rate) && math.dots > 0) ||
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return has_rates(*arg); });
 }
 
 bool is_accelerated(const Math& math) {

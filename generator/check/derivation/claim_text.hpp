@@ -53,12 +53,17 @@ struct ClaimWriting {
     bool alone_is_quantity = false;
     /// Whether ∂/∂ψ' is that of the independent rates, the constraints having been solved for the others.
     bool rates_are_speeds = false;
+    /// Whether dx is taken along the motion: x' of both sides.
+    bool differentials_are_rates = false;
     /// Whether d/dθ is taken along the motion: of θ' it is θ''/θ'.
     bool slopes_are_of_motion = false;
 };
 
 /// Throws NoMeaning.
 ClaimText claim_text(const Math& math, const ClaimWriting& writing);
+
+/// Whether a letter with a dot, or d/dt of something, stands in it.
+bool has_rates(const Math& math);
 
 /// Whether an acceleration stands in it.
 bool is_accelerated(const Math& math);

@@ -31,6 +31,21 @@ std::string words_behind(const Written& written, const WrittenStatement& stateme
     return rest.substr(0, end);
 }
 
+/// "… at $y = -l$": the formula behind it is its condition.
+bool is_conditioned_behind(const Written& written, const WrittenStatement& statement) {
+    const std::size_t end = statement.offset + statement.length;
+    const std::size_t open =
+        written.text.find('$', std::min(written.text.find_first_not_of("$ ", end), written.text.size()));
+    if (open == std::string::npos || open > end + 24) return false;
+    const std::size_t close = written.text.find('$', open + 1);
+    if (close == std::string::npos || close > open + 80) return false;
+    std::string words = written.text.substr(end, open - end);
+    std::erase_if(words, [](char c) { return c == '$' || c == ' ' || c == ',' || c == '\n'; });
+    static const std::set<std::string> conditions{"at",  "when", "if", "for", "bei", "falls", "wenn",
+                                                  "für", "在",   "当", "en",  "si",  "pour"};
+    return conditions.contains(words) && written.text.substr(open, close - open).find('=') != std::string::npos;
+}
+
 bool is_rate_alone(const Math& side) {
     return (side.kind == Kind::letter && side.dots == 1) ||
            (side.kind == Kind::rate && side.dots == 1 && side.args[0]->kind == Kind::letter);
@@ -75,11 +90,12 @@ void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
 void Marker::run() {
     for (std::size_t s = 0; s < written_.statements.size(); ++s) {
         statement_ = &written_.statements[s];
+        words_after_ = words_behind(written_, *statement_);
+        said_ = statement_->words + " " + words_after_;
+        conditioned_behind_ = is_conditioned_behind(written_, *statement_);
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
         speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
                            speaks_of_first_order(words_after_);  // … for small angles
-        words_after_ = words_behind(written_, *statement_);
-        said_ = statement_->words + " " + words_after_;
         hear(statement_->words);
         hear_conditions(statement_->words);
         if (statement_->sides.empty()) {
@@ -123,6 +139,8 @@ void Marker::line(std::size_t s, std::size_t k) {
         weigh_condition(line, lhs, rhs);
     } catch (const NoMeaning&) {  // what has no value for itself is not excused
     }
+    const bool is_of_rest = line.status == LineStatus::not_about_scene && is_rest_assumed_;
+    if (!is_of_rest && (has_rates(lhs) || has_rates(rhs))) is_rest_assumed_ = false;
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
@@ -176,6 +194,7 @@ ClaimWriting Marker::as_written() const {
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds,
+            .differentials_are_rates = notes_.back().differentials_are_rates,
             .slopes_are_of_motion = notes_.back().slopes_are_of_motion};
 }
 
@@ -186,6 +205,7 @@ ClaimWriting Marker::as_derived() const {
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds,
+            .differentials_are_rates = notes_.back().differentials_are_rates,
             .slopes_are_of_motion = notes_.back().slopes_are_of_motion};
 }
 
@@ -259,7 +279,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_own_gauge(line, sides) || holds_after_impact(line, sides)) return;
+    if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) || holds_after_impact(line, sides)) return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
         is_equilibrium(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
         is_on_branch(line, sides) ||

@@ -27,6 +27,7 @@ struct LineNotes {
     bool alone_is_quantity = false;          ///< as in ClaimWriting
     bool rates_are_speeds = false;           ///< likewise
     bool slopes_are_of_motion = false;       ///< likewise
+    bool differentials_are_rates = false;    ///< likewise
     std::optional<BaseState> near = {};      ///< about which the derivation linearizes there
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
@@ -88,12 +89,14 @@ private:
     bool is_given_value(MarkedLine& line, const Sides& sides);
     bool is_assumption(MarkedLine& line, const Sides& sides);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
+    bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
+    bool is_energy_of_part(MarkedLine& line, const Sides& sides);
     bool is_of_own_gauge(MarkedLine& line, const Sides& sides);
 
     bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -120,8 +123,13 @@ private:
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
+    bool is_on_other_axis(const Letter& letter, const GiNaC::ex& value);
     void count_velocity(const Letter& letter, int dots, const std::string& text);
     bool bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool says_rest() const;
+    bool assumes_rest() const;
+    bool is_parameter_identity(const Math& lhs, const Math& rhs);
+    bool holds_at_pose(const Sides& sides);
     bool holds_after_impact(MarkedLine& line, const Sides& sides);
     bool is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool speaks_of_acceleration() const;
@@ -181,9 +189,12 @@ private:
     bool speaks_of_small_ = false;      ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;   ///< whether its ∂/∂ψ' have been those of the independent rates
     bool goes_on_ = false;              ///< whether the words only join two formulas of one sentence
+    bool speaks_of_axes_ = false;       ///< whether the author has laid axes of his own
     bool has_own_gauge_ = false;        ///< whether its L differs from the scene's by a total derivative
     static constexpr int lines_of_condition = 2;  ///< a display ends a sentence without a full stop
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
+    bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
+    bool conditioned_behind_ = false;             ///< whether the formula is followed by "at y = −l"
     int under_condition_ = 0;                     ///< how many lines the condition that the words state may govern
     GiNaC::exmap special_values_;                 ///< of parameters, as the derivation states them
     std::set<std::string> kept_;  ///< names of constants of the motion that are momenta, or written as such

@@ -105,6 +105,8 @@ void Marker::hear(const std::string& words) {
     speaks_of_roots_ = says({"with the roots", "其根"});
     goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
     speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || alembert::speaks_of_rest(words);
+    is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words) || says({"steady", "Steady", "稳态", "stationär"});
+    speaks_of_axes_ = speaks_of_axes_ || says({" axis", " axes", "轴", "achse", "坐标系", " eje"});
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }
@@ -145,6 +147,8 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
+                if (of_motion && statement.consequence)
+                    continue;  // "we get N = …" of the force that it determines
                 const bool is_explained =
                     !statement.displayed && !is_accelerated(value) && explains(statement.words);
                 if (of_motion && !is_explained && !is_constant(value))
@@ -275,6 +279,10 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
     MotionRows& rows = system_.rows();
     const ex stated = truth_.value(claim_text(value, as_written()).text);
     const std::vector<ex> momenta = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
+    if (rows.is_identity(rows.row(stated - m.lagrangian())) == true) {
+        line.status = LineStatus::right;
+        return;
+    }
     const bool is_one = std::any_of(momenta.begin(), momenta.end(), [&](const ex& momentum) {
         return rows.is_identity(rows.row(stated - momentum)) == true;
     });
@@ -351,10 +359,25 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         const bool is_said = binding.spoken && speaks_of_motion_of(statement_->words, spoken_);
         if ((binding.named || is_said) && !named) named = truth, point = binding.point;
     }
+    if (named && speaks_of_axes_ && is_on_other_axis(letter.letter, value)) {
+        define(line, letter, rhs, power);
+        return true;
+    }
     const bool is_constant = std::all_of(text.names.begin(), text.names.end(), [&](const std::string& name) {
         return letters_.is_of_scene(name) && !letters_.moves(name);
     });
     return named && !is_constant && tell(*named, point, false);  // ω = √(g/l) is no rate of a body
+}
+
+/// y = l cos α with y downwards along the shaft: another axis of the scene, or one of its frames.
+bool Marker::is_on_other_axis(const Letter& letter, const ex& value) {
+    MotionRows& rows = system_.rows();
+    for (const Binding& binding : other_axes_of(letter, system_.scene())) {
+        const ex truth = truth_.value(binding.text);
+        if (rows.is_identity(rows.row(truth - value)) == true || rows.is_identity(rows.row(truth + value)) == true)
+            return true;
+    }
+    return false;
 }
 
 /// What the derivation says of a velocity counts in the kinetic energy of its mass.

@@ -119,12 +119,23 @@ bool Marker::holds_in_special_case(const Math& lhs, const Math& rhs) {
     } catch (const std::exception&) {  // m = 0 where something is divided by m
         return false;
     }
-    MotionRows& rows = system_.rows();
-    std::vector<MotionRow> given;
-    std::vector<const MotionRow*> pointers;
-    for (std::size_t k = 1; k < special.size(); ++k) given.push_back(rows.row(special[k]));
-    for (const MotionRow& row : given) pointers.push_back(&row);
-    return rows.follows(rows.row(special[0]), pointers);
+    const auto follow = [&](const std::vector<ex>& values, bool bound) {
+        MotionRows& rows = system_.rows();
+        std::vector<MotionRow> given;
+        std::vector<const MotionRow*> pointers;
+        for (std::size_t k = 1; k < values.size(); ++k) given.push_back(rows.row(values[k]));
+        for (const MotionRow& row : given) pointers.push_back(&row);
+        return rows.follows(rows.row(values[0]), pointers, bound);
+    };
+    if (follow(special, true)) return true;
+    if (!speaks_of_small_) return false;
+    for (const BaseState& base : bases()) {
+        std::vector<ex> linear;
+        for (const ex& value : special)
+            if (const auto part = linear_part(value, base, system_)) linear.push_back(m.z->name(*part));
+        if (linear.size() == special.size() && follow(linear, false)) return true;
+    }
+    return false;
 }
 
 }  // namespace alembert

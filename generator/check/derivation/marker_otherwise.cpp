@@ -60,9 +60,10 @@ bool Marker::is_along_motion(MarkedLine& line, const Sides& sides) {
     notes_.back().slopes_are_of_motion = true;
     const Sides other = sides_of(*sides.lhs, *sides.rhs);
     MotionRows& rows = system_.rows();
-    const bool holds =
+    const bool is_exact =
         rows.holds(rows.row(truth_.value(other.left.text) - truth_.value(other.right.text))) == true;
-    if (holds) judge_pair(line, *sides.lhs, *sides.rhs);
+    const bool holds = is_exact || is_on_branch(line, other);  // dr/dφ = √…
+    if (is_exact) judge_pair(line, *sides.lhs, *sides.rhs);
     notes_.back().slopes_are_of_motion = holds;
     return holds;
 }
@@ -95,6 +96,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
+    if (ends_with_near(statement_->words)) speaks_of_small_ = true;  // "near θ = 0 it gives"
     const auto moves = [&](const ClaimText& side) {
         return std::any_of(side.names.begin(), side.names.end(),
                            [&](const std::string& name) { return letters_.moves(name); });
@@ -196,6 +198,27 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
     line.status = LineStatus::right_up_to_derivative;
     has_own_gauge_ = true;
     return true;
+}
+
+/// E = ½ μ r'² + V_eff of the relative motion: a constant of the motion, but no multiple of the whole energy.
+bool Marker::is_energy_of_part(MarkedLine& line, const Sides& sides) {
+    const std::string name = letters_.name_of(MechanicalQuantity::energy);
+    if (sides.left.text != name) return false;
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    const ex stated = truth_.value(sides.right.text), whole = truth_.value(name);
+    if (m.z->depends(stated, m.qddot) || !m.z->depends(stated, m.qdot)) return false;
+    if (rows.holds(rows.row(m.time_derivative({stated})[0])) != true) return false;
+    for (const GiNaC::symbol& rate : m.qdot) {  // a multiple of the whole has the same ratio of all slopes
+        const ex own = m.z->pull_back({{stated, 1}}, {rate})[0], other = m.z->pull_back({{whole, 1}}, {rate})[0];
+        if (rows.is_identity(rows.row(own)) == true && rows.is_identity(rows.row(other)) != true) {
+            line.status = LineStatus::definition;
+            line.reason = say("a constant of the motion, and not the energy of the whole");
+            notes_.back().claim = {};
+            return true;
+        }
+    }
+    return false;
 }
 
 /// A momentum of the Lagrangian that the derivation has stated, which is right up to a total derivative.

@@ -25,12 +25,6 @@ bool holds_letters_only(const std::set<std::string>& names, const Scene& scene) 
     });
 }
 
-bool has_rates(const Math& math) {
-    std::map<Letter, int> all;
-    collect_letters(math, all);
-    return std::any_of(all.begin(), all.end(), [](const auto& item) { return item.second > 0; });
-}
-
 Expression parsed(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     return parse_expression(text, {}, mistakes);
@@ -98,8 +92,8 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
 
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
-    if ((speaks_of_roots_ || speaks_of_rest_) && is_root(line, sides)) return true;
-    if (speaks_of_rest_ && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
+    if ((speaks_of_roots_ || says_rest()) && is_root(line, sides)) return true;
+    if (says_rest() && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
     if (!speaks_of_rest_ && !statement_->displayed) return false;
     const auto is_state = [&](const Math& a, const ClaimText& b) {
         return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
@@ -169,6 +163,11 @@ bool Marker::is_condition_of_rest(MarkedLine& line, const Sides& sides) {
     return false;
 }
 
+/// "In equilibrium. We find": rest is spoken of here, or was a line before.
+bool Marker::says_rest() const {
+    return speaks_of_rest_ || is_rest_assumed_;
+}
+
 bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
     if (at_rest_of_rates_) {
         const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
@@ -180,7 +179,7 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
             return true;
         }
     }
-    if (!speaks_of_rest_ || has_rates(*sides.lhs) || has_rates(*sides.rhs)) return false;  // at rest all vanish
+    if (!says_rest() || has_rates(*sides.lhs) || has_rates(*sides.rhs)) return false;  // at rest all vanish
     LineClaim claim = notes_.back().claim;
     claim.at_rest = true;
     if (has_quantities(sides)) return false;
@@ -188,8 +187,13 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
         const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
         const auto& other = verdicts[0].other_branch;
         const bool on_a_branch = other && other->verdict == Verdict::proved;
-        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous && !on_a_branch)
-            return false;
+        if (verdicts[0].verdict == Verdict::undecided && !on_a_branch) {
+            line.status = LineStatus::undecided;
+            line.reason = say("it could not be evaluated");
+            notes_.back().claim = {};
+            return true;
+        }
+        if (verdicts[0].verdict == Verdict::refuted && !on_a_branch) return false;
     } catch (const std::exception&) {
         return false;
     }
@@ -234,6 +238,15 @@ void Marker::note_base(const Math& lhs, const Math& rhs, const Letter& deviation
     near_.reset();
 }
 
+/// cos θ ≈ 1 + θ²/2: terms of second order that are written are to be right.
+bool Marker::states_second_order(const Sides& sides, const ex& residual, const BaseState& base) {
+    if (is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs)) return false;
+    if (is_small(residual, base, 2, false, system_)) return false;
+    const ex value = truth_.value(sides.right.text);
+    const std::optional<ex> first = linear_part(value, base, system_);
+    return first && !is_small(value - *first, base, 2, true, system_);
+}
+
 bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
     if (!speaks_of_small_) return false;
     const auto speaks_of = [&](MechanicalQuantity quantity) {
@@ -246,6 +259,7 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
     for (const BaseState& base : bases()) {
         if (!may_rest(base, system_)) continue;
         bool holds = is_small(residual, base, order, of_potential, system_);
+        if (holds && order == 1 && states_second_order(sides, residual, base)) continue;
         if (!holds && order == 1) {
             const auto checked = checked_near(notes_.back().claim, base, system_, known_);
             holds = checked && checked->verdict == Verdict::proved;

@@ -8,6 +8,8 @@
 
 #include "base/language/say.hpp"
 #include "check/written/words.hpp"
+#include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 
@@ -28,6 +30,29 @@ bool speaks_of_numbered_equations(const std::string& source) {
     return numbered > 1 && source.find('(') == source.find_first_not_of(" {\\quad");
 }
 
+bool is_letter_t(const Math& math) {
+    return math.kind == Kind::letter && math.letter == Letter{.base = "t"};
+}
+
+/// x(t)
+bool is_at_time(const Math& math) {
+    return math.kind == Kind::applied && math.args.size() == 1 && is_letter_t(*math.args[0]);
+}
+
+/// t itself, and not as in θ(t).
+bool speaks_of_time(const Math& math) {
+    if (is_letter_t(math)) return true;
+    return !is_at_time(math) && std::any_of(math.args.begin(), math.args.end(),
+                                            [](const MathPtr& arg) { return speaks_of_time(*arg); });
+}
+
+/// α' = 0, α' = α'': rates alone, and zero.
+bool are_rates_at_rest(const Math& lhs, const Math& rhs) {
+    const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
+    const auto is_rate = [](const Math& side) { return side.kind == Kind::letter && side.dots > 0; };
+    return (is_rate(lhs) || is_zero(lhs)) && (is_rate(rhs) || is_zero(rhs)) && (is_rate(lhs) || is_rate(rhs));
+}
+
 }  // namespace
 
 /// "In steady motion", "if the wedge is held": what is said then holds under a condition, until the sentence ends.
@@ -35,7 +60,7 @@ void Marker::hear_conditions(const std::string& words) {
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
     if (speaks_of_special_motion(words) || states_condition(words)) under_condition_ = lines_of_condition;
-    speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(words);
+    speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
     from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
 }
 
@@ -53,7 +78,10 @@ bool Marker::is_value_of_state(const Letter& letter) const {
 bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const {
     const auto is_parameter = [&](const Letter& letter) {
         const auto name = letters_.name_of(letter);
-        return name && letters_.is_of_scene(*name) && !letters_.moves(*name) && !letters_.is_function(*name);
+        const bool is_input = std::any_of(system_.scene().inputs.begin(), system_.scene().inputs.end(),
+                                          [&](const Input& input) { return name == input.name.text; });
+        return name && letters_.is_of_scene(*name) && (is_input || !letters_.moves(*name)) &&
+               !letters_.is_function(*name);
     };
     const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
     if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter && !is_said)) return false;
@@ -63,19 +91,31 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
 
 /// x = ½ a t², θ = A cos ω t: one motion of a system that does not change with time.
 bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
-    const auto name = lhs.kind == Kind::letter ? letters_.name_of(lhs.letter) : std::nullopt;
+    const bool is_value = lhs.kind == Kind::letter || is_at_time(lhs);
+    const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
     const std::vector<std::string>& coordinates = letters_.coordinates();
     if (!name || std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()) return false;
-    std::map<Letter, int> all;
-    collect_letters(rhs, all);
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const auto& item) { return letters_.name_of(item.first) == "t"; }))
-        return false;
+    if (!speaks_of_time(rhs)) return false;
     const Mechanism& m = system_.mechanism();
     std::vector<ex> values = system_.forces(true);
     values.push_back(m.lagrangian());
     const std::vector<ex> changes = m.explicit_time_derivative(values);
     return std::all_of(changes.begin(), changes.end(), [](const ex& change) { return change.is_zero(); });
+}
+
+/// "Set α' = 0", "in steady rotation α' = α'' = 0", or the whole chain of rates that is set to zero.
+bool Marker::assumes_rest() const {
+    const bool is_chain = statement_->sides.size() > 2 && statement_->sides.back()->kind == Kind::number;
+    return is_chain || is_rest_assumed_ || says_rest() || sets_value(statement_->words) ||
+           speaks_of_special_motion(statement_->words) || begins_condition_of_state(statement_->words);
+}
+
+/// μ = m_1 m_2/(m_1 + m_2) where the scene has it so.
+bool Marker::is_parameter_identity(const Math& lhs, const Math& rhs) {
+    const ex left = truth_.value(claim_text(lhs, as_written()).text),
+             right = truth_.value(claim_text(rhs, as_written()).text);
+    MotionRows& rows = system_.rows();
+    return rows.is_identity(rows.row(left - right)) == true;
 }
 
 /// Whether the line states one moment or a condition; then it is told so.
@@ -85,9 +125,17 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         line.reason = std::move(reason);
         return true;
     };
+    if (are_rates_at_rest(lhs, rhs) && assumes_rest()) {
+        is_rest_assumed_ = true;
+        return tell(say("a state of rest"));
+    }
+    if (conditioned_behind_)
+        return tell(say("the words state a condition for it; lines are judged for all motions"));
     if (denies(statement_->words)) return tell(say("the words say that it does not hold"));
     if (speaks_of_numbered_equations(written_.text.substr(statement_->offset, statement_->length)))
         return tell(say("it speaks of equations by their numbers"));
+    if (says_rest() && is_lone_force(lhs) && rhs.kind == Kind::number && rhs.text == "0")
+        return tell(say("a state of rest"));
     if (is_of_one_motion(lhs, rhs)) return tell(say("it describes one motion; lines are judged for all motions"));
     for (const Math* side : {&lhs, &rhs})
         if (side->kind == Kind::applied && side->args.size() == 1 && side->args[0]->kind == Kind::number) {
@@ -104,7 +152,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         return tell(
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
-    if (states_special_case(lhs, rhs, all)) {
+    if (states_special_case(lhs, rhs, all) && !is_parameter_identity(lhs, rhs)) {
         take_in_special_case(lhs, rhs);
         return tell(say("a condition on parameters; lines are judged for all their values"));
     }
@@ -154,8 +202,27 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
 }
 
+/// Lines about an impact may be written for the pose in which it happens.
+bool Marker::holds_at_pose(const Sides& sides) {
+    if (system_.scene().impulses.empty()) return false;
+    const Mechanism& m = system_.mechanism();
+    GiNaC::exmap pose;
+    for (const Coordinate& c : system_.scene().coordinates)
+        for (const GiNaC::symbol& q : m.q)
+            if (q.get_name() == c.name.text && c.initial) pose[q] = truth_.value(c.initial);
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    if (m.z->depends(residual, m.qddot)) return false;
+    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, pose)[0]), m);
+}
+
 /// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.
 bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
+    if (holds_at_pose(sides)) {
+        line.status = LineStatus::right;
+        line.reason = say("at the pose of the impact");
+        notes_.back().claim = {};
+        return true;
+    }
     if (!speaks_of_impact_ || system_.scene().impulses.empty() || has_quantities(sides) ||
         is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
         return false;

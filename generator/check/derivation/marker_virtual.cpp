@@ -20,6 +20,13 @@ bool holds_variation(const Math& math) {
                                                        [](const MathPtr& arg) { return holds_variation(*arg); });
 }
 
+/// dx and no δx.
+bool all_are_differentials(const Math& math) {
+    return (math.kind != Kind::variation || math.text == "d") &&
+           std::all_of(math.args.begin(), math.args.end(),
+                       [](const MathPtr& arg) { return all_are_differentials(*arg); });
+}
+
 /// δW, or a sum of them.
 bool is_virtual_work(const Math& math) {
     if (math.kind == Kind::call && math.text == "sum" && !math.args.empty()) return is_virtual_work(*math.args[0]);
@@ -51,6 +58,11 @@ bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
     }
     if (is_virtual_work(lhs)) {
         judge_work(line, rhs);
+        return true;
+    }
+    if (all_are_differentials(lhs) && all_are_differentials(rhs)) {
+        notes_.back().differentials_are_rates = true;
+        judge_pair(line, lhs, rhs);
         return true;
     }
     if (!system_.equations().A.empty()) return judge_admissible(line, lhs, rhs);

@@ -304,16 +304,13 @@ private:
     }
 
     void add_constraints(SceneDraft& draft) {
-        std::map<std::string, std::string> rates;  // of differentials
-        for (const auto& [letter, dots] : dots_)
-            if (is_coordinate(letter)) rates[name_for(letter)] = name_for(letter) + "'";
         std::vector<std::string> told;
         for (const WrittenStatement* constraint : constraints_) {
             std::string sides[2];
             bool is_of_rates = false;
             for (std::size_t k = 0; k < 2; ++k) {
                 const Math& side = *constraint->sides[k];
-                sides[k] = claim_text(side, {.letters = letters_, .displacements = &rates}).text;
+                sides[k] = claim_text(side, {.letters = letters_, .differentials_are_rates = true}).text;
                 is_of_rates = is_of_rates || sides[k].find('\'') != std::string::npos;
             }
             const std::string text = sides[0] + " = " + sides[1];

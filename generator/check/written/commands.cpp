@@ -99,7 +99,7 @@ void list_signs(CommandTable& table) {
     list_tokens(table, TokenKind::open, "llbracket lfloor lceil", "[");
     list_tokens(table, TokenKind::close, "rrbracket rfloor rceil", "]");
     list_tokens(table, TokenKind::close, "rparen", ")");
-    list_tokens(table, TokenKind::stray, "pm mp");
+    list_tokens(table, TokenKind::stray, "pm mp", "±");
     list_tokens(table, TokenKind::text, "forall", "for all");
     list_tokens(table, TokenKind::semicolon, "colon");
     list_tokens(table, TokenKind::row, "newline tabularnewline", "");
@@ -151,7 +151,8 @@ struct NamedFunction {
     std::string_view name, meaning;
 };
 
-constexpr std::array<NamedFunction, 44> named_functions{{
+constexpr std::array<NamedFunction, 49> named_functions{{
+    {"sen", "sin"},     {"cotg", "cot"},    {"arcsen", "asin"}, {"arctg", "atan"},    {"senh", "sinh"},
     {"sin", "sin"},     {"cos", "cos"},     {"tan", "tan"},     {"cot", "cot"},       {"sec", "sec"},
     {"csc", "csc"},     {"asin", "asin"},   {"acos", "acos"},   {"atan", "atan"},     {"atan2", "atan2"},
     {"sinh", "sinh"},   {"cosh", "cosh"},   {"tanh", "tanh"},   {"sqrt", "sqrt"},     {"exp", "exp"},

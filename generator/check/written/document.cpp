@@ -205,8 +205,9 @@ void DocumentReader::say_words(std::string_view text) {
     }
     const std::size_t from = words_.size() > 60 ? words_.size() - 60 : 0;
     words_ += added;
-    if (has_letters && speaks_of_exact_motion(added)) is_first_order_ = false;
-    if (has_letters && !is_first_order_)
+    const bool is_exact = speaks_of_exact_motion(added);
+    if (is_exact) is_first_order_ = false;
+    if (has_letters && !is_exact && !is_first_order_)
         is_first_order_ = speaks_of_first_order(std::string_view(words_).substr(from));
 }
 

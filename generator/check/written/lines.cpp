@@ -419,8 +419,29 @@ std::vector<WrittenToken> DocumentReader::labelled_tokens(std::size_t begin, std
 }
 
 /// A line with a sign such as =, and the lines that go on with it. False if it holds no statement.
+namespace {
+
+/// (%o3) of Maxima, Out[3]= and In[3]:= of Mathematica before a formula.
+std::size_t session_label_length(std::string_view line) {
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    const std::string_view rest = line.substr(begin);
+    const auto behind = [&](std::string_view open, std::string_view close) -> std::size_t {
+        if (!rest.starts_with(open)) return 0;
+        std::size_t at = open.size();
+        while (at < rest.size() && std::isdigit(static_cast<unsigned char>(rest[at])) != 0) ++at;
+        return at > open.size() && rest.substr(at).starts_with(close) ? begin + at + close.size() : 0;
+    };
+    for (const auto& [open, close] :
+         {std::pair("(%o", ")"), std::pair("(%i", ")"), std::pair("Out[", "]="), std::pair("In[", "]:=")})
+        if (const std::size_t length = behind(open, close); length > 0) return length;
+    return 0;
+}
+
+}  // namespace
+
 bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
-    const std::size_t from = begin + marker_length(slice(begin, end));
+    std::size_t from = begin + marker_length(slice(begin, end));
+    from += session_label_length(slice(from, end));
     if (is_drawing(slice(from, end))) return false;
     std::size_t after = end;
     while (after < end_) {  // lines that begin with = or +, or follow a sign

@@ -245,6 +245,10 @@ private:
             own.push_back(tokens_[i]);
         }
         while (!own.empty() && is_punctuation(own.back().kind)) own.pop_back();
+        const bool has_root = std::any_of(own.begin(), own.end(), [](const WrittenToken& token) {
+            return token.text == "sqrt" && (token.kind == PartKind::command || token.kind == PartKind::function);
+        });
+        if (has_root && own.front().text == "±") own.erase(own.begin());  // of both branches one is read
         if (own.empty()) {
             const WrittenToken& near = tokens_[std::min(begin, tokens_.size() - 1)];
             throw NotUnderstood{near.offset, near.length,
@@ -297,7 +301,8 @@ private:
                 return false;
             } else {
                 const bool is_d = what == PartKind::letter && tokens_[i].letter == Letter{.base = "d"};
-                differentials += is_d && kind(i + 1) == PartKind::letter && tokens_[i + 1].tight ? 1 : 0;
+                const bool has_operand = kind(i + 1) == PartKind::letter || kind(i + 1) == PartKind::command;
+                differentials += is_d && has_operand && tokens_[i + 1].tight ? 1 : 0;
             }
         }
         return ends_term(part.end) && has_one;

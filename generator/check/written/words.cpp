@@ -105,7 +105,7 @@ bool speaks_of_first_order(std::string_view words) {
     static constexpr std::string_view phrases =
         "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
         "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
-        "near equilibrium|near the equilibrium|about the equilibrium|higher order|higher-order|"
+        "near equilibrium|near the equilibrium|nearly at rest|about the equilibrium|higher order|higher-order|"
         "second order terms|quadratic "
         "terms|小角*|微小*|微振动*|微幅*|很小*|略去高阶*|高阶小量*|一次近似*|小振动*|小摆*|线性化*|小幅*|一阶近似*"
         "|kleine winkel*|"
@@ -114,7 +114,8 @@ bool speaks_of_first_order(std::string_view words) {
         "ausschl*|kleinen ausschl*|kleiner ausschl*|linearisier*|oscilaciones pequeñas|pequeñas "
         "oscilaciones|pequeño|"
         "pequeños ángulos|ángulos pequeños|aproximación lineal|linealiz*|petites oscillations|petits angles|"
-        "linéaris*";
+        "linéaris*|near theta|near the bottom|close to the equilibrium|close to equilibrium|small angles|petit*|"
+        "pequeñas*|ángulos pequeños";
     const std::string lower = in_lower_case(words);
     for (std::size_t begin = 0; begin < lower.size();) {
         const std::size_t end = end_of_first_sentence(lower, begin);
@@ -167,27 +168,46 @@ bool speaks_of_special_case(std::string_view words) {
 }
 
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(
-        last_sentence(words),
-        "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
-        "for steady rotation|in steady rotation|relative equilibrium*|regelmäßige präzession|reguläre "
-        "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
-        "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
-        "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
+    return has_phrase(last_sentence(words),
+                      "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
+                      "for steady rotation|in steady rotation|at a steady speed|at steady speed|stationär mit|"
+                      "im stationären zustand|relative equilibrium*|regelmäßige präzession|reguläre "
+                      "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
+                      "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
+                      "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
 }
 
-bool speaks_of_rest(std::string_view words) {
-    const std::string sentence = last_sentence(words);
-    const bool is_of_start =
-        has_phrase(sentence, "start*|initially|released|remains|stays|not at rest|从静止*|静止开始*|初始*");
+namespace {
+
+bool is_of_rest(const std::string& sentence) {
+    const bool is_of_start = has_phrase(
+        sentence, "start*|initially|released|remains|not at rest|从静止*|静止开始*|初始*|冲击前*|碰撞前*");
     const bool is_of_place =
         has_phrase(sentence,
-                   "from the equilibrium*|from equilibrium|measured*|displacement*|deviation*|about the "
-                   "equilibrium*|near*|为原点*|起*|偏离*|gemessen*|auslenkung*");
+                   "from the equilibrium*|from equilibrium|measured*|displacement from*|deviation*|about the "
+                   "equilibrium*|为原点*|起*|偏离*|gemessen*|auslenkung*");
     return !is_of_start && !is_of_place &&
-           has_phrase(sentence,
-                      "at rest|equilibri*|accelerations zero|静止*|平衡*|加速度为零*|im gleichgewicht|"
-                      "gleichgewichtslage*|ruhelage*");
+           has_phrase(
+               sentence,
+               "at rest|rests|equilibri*|accelerations zero|principle of virtual work|静止*|平衡*|虚位移原理*|"
+               "虚功原理*|加速度为零*|im gleichgewicht|gleichgewichtslage*|gleichgewichtsbedingung*|ruhelage*|"
+               "équilibre");
+}
+
+}  // namespace
+
+bool speaks_of_rest(std::string_view words) {
+    return is_of_rest(last_sentence(words));
+}
+
+bool mentions_rest(std::string_view words) {
+    const std::string lower = in_lower_case(words);
+    for (std::size_t begin = 0; begin < lower.size();) {
+        const std::size_t end = end_of_first_sentence(lower, begin);
+        if (is_of_rest(lower.substr(begin, end - begin))) return true;
+        begin = end;
+    }
+    return false;
 }
 
 bool speaks_of_start_from_rest(std::string_view words) {
@@ -200,7 +220,8 @@ bool speaks_of_start_from_rest(std::string_view words) {
 bool speaks_of_impact(std::string_view words) {
     return has_phrase(
         in_lower_case(words),
-        "after the impact|after impact|after the collision|after the blow|after the impulse|just after|"
+        "after the impact|after impact|right after|impulse gives|blow gives|impact gives|after the "
+        "collision|after the blow|after the impulse|just after|"
         "immediately after|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
         "unmittelbar nach");
 }
@@ -265,6 +286,27 @@ bool speaks_of_motion_of(std::string_view words, const std::string& name) {
             if (sentence.find(what + (the + lower)) != std::string::npos) return true;
     return has_phrase(sentence,
                       "the " + lower + " is at|the " + lower + " has the velocity|the " + lower + " moves with");
+}
+
+bool ends_with_near(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    while (!sentence.empty() && sentence.back() == ' ') sentence.pop_back();
+    for (const std::string_view word :
+         {"near", "close to", "nearly", "in der nähe von", "nahe", "cerca de", "près de"})
+        if (sentence == word || sentence.ends_with(" " + std::string(word))) return true;
+    return false;
+}
+
+bool sets_value(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',')) sentence.pop_back();
+    for (const std::string_view word :
+         {"set", "setting", "let", "put", "putting", "with", "mit", "setze", "man setzt", "haciendo", "poniendo",
+          "en posant", "avec", "con", "令", "设", "取", "and"})
+        if (sentence == word || sentence.ends_with(" " + std::string(word)) ||
+            (static_cast<unsigned char>(word[0]) >= 0x80 && sentence.ends_with(word)))
+            return true;
+    return false;
 }
 
 bool speaks_of_constraint(std::string_view words) {

@@ -34,6 +34,9 @@ bool speaks_of_special_case(std::string_view words);
 /// which something is measured.
 bool speaks_of_rest(std::string_view words);
 
+/// "In equilibrium. We find": any of the sentences speaks of rest.
+bool mentions_rest(std::string_view words);
+
 /// "steady motion", "conical pendulum": the motions of which the last sentence speaks are special ones.
 bool speaks_of_special_motion(std::string_view words);
 
@@ -62,6 +65,12 @@ bool speaks_of_conservation(std::string_view words);
 
 /// "The velocity of the bob is": it is that of the thing of this name.
 bool speaks_of_motion_of(std::string_view words, const std::string& name);
+
+/// "near", "close to" before a formula: what follows holds to first order about the state that it describes.
+bool ends_with_near(std::string_view words);
+
+/// "Set", "put": the formula that comes next is set so, and claims nothing.
+bool sets_value(std::string_view words);
 
 /// "constraint", "rolls without slipping".
 bool speaks_of_constraint(std::string_view words);
