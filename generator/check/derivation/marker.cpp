@@ -172,8 +172,8 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (is_of_state(line, lhs, rhs)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
-    if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;
     try {
+        if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;
         judge_pair(line, lhs, rhs);
     } catch (const NoMeaning& reason) {
         if (reason.unknown && introduce_ahead(*reason.unknown)) return judge(line, lhs, rhs, relation);
@@ -221,6 +221,7 @@ void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
     notes_.back().right = sides.right;
     const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
     const std::optional<bool> holds = system_.rows().holds(row);
+    if (!holds && says_rest() && (is_root(line, sides) || holds_at_rest(line, sides))) return;
     if (!holds) {
         line.reason = say("it could not be evaluated");
         return;
@@ -255,9 +256,17 @@ bool Marker::repeats_law(const Sides& sides) const {
 }
 
 bool Marker::has_quantities(const Sides& sides) const {
-    const auto is_own = [&](const std::string& name) { return known_.contains(name); };
-    return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_own) ||
-           std::any_of(sides.right.names.begin(), sides.right.names.end(), is_own);
+    std::set<std::string> energies;
+    for (const MechanicalQuantity quantity :
+         {MechanicalQuantity::kinetic, MechanicalQuantity::potential, MechanicalQuantity::lagrangian,
+          MechanicalQuantity::energy, MechanicalQuantity::hamiltonian})
+        energies.insert(letters_.name_of(quantity));
+    const auto is_one = [&](const std::string& name) {
+        const bool is_along = name.starts_with("p_") || name.starts_with("Q_");
+        return known_.contains(name) && (is_along || energies.contains(name));
+    };
+    return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_one) ||
+           std::any_of(sides.right.names.begin(), sides.right.names.end(), is_one);
 }
 
 void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row) {

@@ -67,7 +67,9 @@ private:
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs);
     void judge_work(MarkedLine& line, const Math& rhs);
-    bool judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs);
+    void judge_displacements(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool find_place(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    void judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs);
     Sides sides_of(const Math& lhs, const Math& rhs) const;
     ClaimWriting as_written() const;
     ClaimWriting as_derived() const;

@@ -140,7 +140,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
         });
     };
     for (const WrittenStatement& statement : written_.statements) {
-        if (&statement <= statement_) continue;
+        if (&statement < statement_) continue;  // in this one: y_1 = y_2 = l cos α
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
             for (const bool turned : {false, true}) {
                 const Math &side = *statement.sides[turned ? k + 1 : k],
@@ -155,6 +155,9 @@ bool Marker::introduce_ahead(const Letter& letter) {
                     continue;  // a force, which the equation itself determines
                 try {
                     MarkedLine there;
+                    if (&statement == statement_ && turned) continue;
+                    if (&statement == statement_ && k > 0 && introduce(there, side, value)) return true;
+                    if (&statement == statement_) continue;
                     define(there, *lone.letter, value, lone.power);
                     ahead_.insert(letter);
                     return true;
@@ -359,7 +362,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         const bool is_said = binding.spoken && speaks_of_motion_of(statement_->words, spoken_);
         if ((binding.named || is_said) && !named) named = truth, point = binding.point;
     }
-    if (named && speaks_of_axes_ && is_on_other_axis(letter.letter, value)) {
+    if (named && is_on_other_axis(letter.letter, value)) {
         define(line, letter, rhs, power);
         return true;
     }
@@ -372,6 +375,13 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
 /// y = l cos α with y downwards along the shaft: another axis of the scene, or one of its frames.
 bool Marker::is_on_other_axis(const Letter& letter, const ex& value) {
     MotionRows& rows = system_.rows();
+    const auto is_in_plane = [&](const auto& masses) {
+        return std::all_of(masses.begin(), masses.end(), [&](const auto& mass) {
+            return truth_.value("dot(pos(" + mass.name.text + "),ez(N))").is_zero();
+        });
+    };
+    const Scene& scene = system_.scene();
+    if (!speaks_of_axes_ && is_in_plane(scene.particles) && is_in_plane(scene.bodies)) return false;
     for (const Binding& binding : other_axes_of(letter, system_.scene())) {
         const ex truth = truth_.value(binding.text);
         if (rows.is_identity(rows.row(truth - value)) == true || rows.is_identity(rows.row(truth + value)) == true)

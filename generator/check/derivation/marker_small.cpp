@@ -103,8 +103,17 @@ bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
     if (!left && !right) return false;
     const std::string name = left ? sides.left.text : sides.right.text,
                       value = left ? sides.right.text : sides.left.text;
-    const CheckedClaim found =
-        check_equilibrium({system_.scene(), system_.mechanism(), {{name, parsed(value)}}, system_.sheets()});
+    const auto checked = [&](const std::vector<std::pair<std::string, Expression>>& place) {
+        return check_equilibrium({system_.scene(), system_.mechanism(), place, system_.sheets()});
+    };
+    CheckedClaim found = checked({{name, parsed(value)}});
+    for (const BaseState& base : base_states(system_.scene())) {  // the others where they may rest
+        if (found.verdict == Verdict::proved) break;
+        std::vector<std::pair<std::string, Expression>> place = parsed(base);
+        for (auto& [q, expression] : place)
+            if (q == name) expression = parsed(value);
+        if (CheckedClaim other = checked(place); other.verdict == Verdict::proved) found = std::move(other);
+    }
     if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_))
         return false;
     line.checked = found;

@@ -51,19 +51,62 @@ Displacements along(const Mechanism& m, int coordinate) {
 /// such a line.
 bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!holds_variation(lhs) && !holds_variation(rhs)) return false;
+    try {
+        judge_displacements(line, lhs, rhs);
+        return true;
+    } catch (const NoMeaning& reason) {
+        if (!reason.unknown || !find_place(line, lhs, rhs, *reason.unknown)) throw;
+        return true;
+    }
+}
+
+/// δx_2 of a place that the derivation has not stated: one of the scene's.
+bool Marker::find_place(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    const Letters before = letters_;
+    const LineNotes notes = notes_.back();
+    std::optional<Binding> named;
+    const auto judged_with = [&](const Binding& binding) {
+        letters_ = before;
+        notes_.back() = notes;
+        const std::string name = bind(letter, truth_.value(binding.text));
+        MarkedLine other = line;
+        try {
+            judge_displacements(other, lhs, rhs);
+        } catch (const NoMeaning&) {  // another letter is not known either
+            known_.erase(name);
+            return false;
+        }
+        if (is_right(other.status) || (named && named->text == binding.text)) {
+            line = other;
+            return true;
+        }
+        known_.erase(name);
+        return false;
+    };
+    for (const Binding& binding : bindings(letter)) {
+        if (judged_with(binding)) return true;
+        if (binding.named && !binding.reversed && !named) named = binding;
+    }
+    if (named && judged_with(*named)) return true;
+    letters_ = before;
+    notes_.back() = notes;
+    return false;
+}
+
+void Marker::judge_displacements(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (is_virtual_work(lhs) && is_zero(rhs)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("a law in general coordinates");
-        return true;
+        return;
     }
     if (is_virtual_work(lhs)) {
         judge_work(line, rhs);
-        return true;
+        return;
     }
     if (all_are_differentials(lhs) && all_are_differentials(rhs)) {
         notes_.back().differentials_are_rates = true;
         judge_pair(line, lhs, rhs);
-        return true;
+        return;
     }
     if (!system_.equations().A.empty()) return judge_admissible(line, lhs, rhs);
     const Mechanism& m = system_.mechanism();
@@ -86,11 +129,10 @@ bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
     }
     line = *told;
     notes_.back() = std::move(notes);
-    return true;
 }
 
 /// Where constraints bind the displacements, what stands before them may differ by Σ λ ∂f/∂q.
-bool Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs) {
+void Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     std::vector<ex> factors;
     for (int i = -1; i < m.size(); ++i) {
@@ -105,7 +147,6 @@ bool Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs
     const std::optional<bool> holds = system_.rows().is_bound(factors);
     line.status = !holds ? LineStatus::undecided : *holds ? LineStatus::right : LineStatus::mistake;
     line.reason = holds ? say("for displacements that the constraints allow") : say("it could not be evaluated");
-    return true;
 }
 
 /// δW = Σ Q_q δq: one claim for each coordinate.

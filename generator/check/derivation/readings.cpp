@@ -53,6 +53,14 @@ bool has_motion(const Math& math, const Letters& letters) {
     });
 }
 
+/// θ'²: an energy, and no momentum.
+bool holds_square_of_rate(const Math& math) {
+    const bool is_square =
+        math.kind == Kind::power && math.args[0]->kind == Kind::letter && math.args[0]->dots > 0;
+    return is_square || std::any_of(math.args.begin(), math.args.end(),
+                                    [](const MathPtr& arg) { return holds_square_of_rate(*arg); });
+}
+
 std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
     return std::count_if(lines.begin(), lines.end(),
                          [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
@@ -104,7 +112,7 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
                 const bool is_scenes = name && letters.is_of_scene(*name) && identifier_of(*letter) == *name;
-                if (!is_scenes && has_motion(value, letters) && is_known &&
+                if (!is_scenes && has_motion(value, letters) && is_known && !holds_square_of_rate(value) &&
                     speaks_of_angular_momentum(statement.words))
                     letters.leave_to_author(*letter);
             }
@@ -179,7 +187,8 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
         const bool bears_out = std::any_of(lines.begin(), lines.end(), [&](const MarkedLine& line) {
             return line.status == LineStatus::follows && line.follows_from == k;  // T = ½ m v² with this v
         });
-        const bool is_told = speaks_of_conservation(written_.statements[lines[k].statement].words);
+        const std::string& words = written_.statements[lines[k].statement].words;
+        const bool is_told = speaks_of_conservation(words) || speaks_of_frequency(words);
         if (!letter || !letter->index.empty() || bears_out || is_told || uses(lines, k, *letter).all > 0) continue;
         lines[k].status = LineStatus::undecided;
         lines[k].checked = {};

@@ -297,6 +297,12 @@ bool ends_with_near(std::string_view words) {
     return false;
 }
 
+bool speaks_of_frequency(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "frequenc*|频率*|frequenz*|kreisfrequenz|eigenfrequenz*|period|周期*|frecuencia*|fréquence*");
+}
+
 bool sets_value(std::string_view words) {
     std::string sentence = last_sentence(words);
     while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',')) sentence.pop_back();

@@ -69,6 +69,9 @@ bool speaks_of_motion_of(std::string_view words, const std::string& name);
 /// "near", "close to" before a formula: what follows holds to first order about the state that it describes.
 bool ends_with_near(std::string_view words);
 
+/// "The natural frequency", "period".
+bool speaks_of_frequency(std::string_view words);
+
 /// "Set", "put": the formula that comes next is set so, and claims nothing.
 bool sets_value(std::string_view words);
 
