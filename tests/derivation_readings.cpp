@@ -262,6 +262,105 @@ TEST_CASE("readings: notebooks of Jupyter and reStructuredText, each mistake at 
                    "page.rst") == "RMU");
 }
 
+TEST_CASE("readings: all coefficients of a virtual work count, and one text has one meaning of Q") {
+    CHECK(
+        statuses(spring,
+                 "$\\delta W = (m g\\cos\\theta - k(r-l_0))\\,\\delta r + m g r\\sin\\theta\\,\\delta\\theta$") ==
+        "M");
+    CHECK(
+        statuses(spring,
+                 "$\\delta W = (m g\\cos\\theta - k(r-l_0))\\,\\delta r - m g r\\sin\\theta\\,\\delta\\theta$") ==
+        "R");
+    CHECK(statuses(spring, "$Q_r = m g\\cos\\theta - k(r-l_0)$ and $Q_\\theta = 0$") == "RM");
+    CHECK(statuses(spring, "$Q_r = m g\\cos\\theta - k(r-l_0)$ and $Q_\\theta = -mgr\\sin\\theta$") == "RR");
+    CHECK(statuses(spring, "$\\delta x = \\sin\\theta\\,\\delta r + r\\cos\\theta\\,\\delta\\theta$") == "R");
+    CHECK(statuses(spring, "$\\delta x = \\sin\\theta\\,\\delta r - r\\cos\\theta\\,\\delta\\theta$") == "M");
+}
+
+TEST_CASE("readings: a derivative that is written out is one off the motion too") {
+    const std::string orbit = test::textbook_text("central_force"),
+                      trammel = test::textbook_text("elliptic_trammel");
+    CHECK(statuses(orbit, "$\\frac{d}{dt}(m r^2\\dot\\varphi) = m r\\ddot\\varphi + 2m\\dot r\\dot\\varphi$") ==
+          "M");
+    CHECK(statuses(orbit,
+                   "$\\frac{d}{dt}(m r^2\\dot\\varphi) = m r^2\\ddot\\varphi + 2mr\\dot r\\dot\\varphi = 0$") ==
+          "RR");
+    CHECK(statuses(
+              orbit,
+              "$\\frac{d}{dt}(m r^2\\dot\\varphi) = 0$, so $mr^2\\ddot\\varphi + 2mr\\dot r\\dot\\varphi = 0$") ==
+          "RR");
+    CHECK(statuses(trammel, "$\\frac{d}{dt}(x^2+y^2) = x\\dot x + y\\dot y$") == "M");
+    CHECK(statuses(trammel, "$\\frac{d}{dt}(x^2+y^2) = 2x\\dot x + 2y\\dot y = 0$") == "RR");
+    const std::string sleigh = test::textbook_text("chaplygin_sleigh_in_speeds");
+    CHECK(statuses(sleigh, "$F^*_v = -m(\\dot v - a w^2)$") == "R");
+    CHECK(statuses(sleigh, "$F^*_v = m(\\dot v - a w^2)$") == "M");
+}
+
+TEST_CASE("readings: values of parameters, branches of roots, integrals that the words state") {
+    const std::string data =
+        "A bob of mass $m = 1\\,\\mathrm{kg}$ hangs on a spring with $k = 40\\,\\mathrm{N/m}$.\n";
+    CHECK(statuses(spring, data + "$$T = m(\\dot r^2+r^2\\dot\\theta^2)$$\n$$m\\ddot r + k(r-l_0) = 0$$") ==
+          "--MM");
+    CHECK(statuses(pendulum, "With $l = 1$ we get $\\ddot\\theta + g\\sin\\theta = 0$") == "-R");
+    CHECK(statuses(pendulum, "With $l = 1$ we get $\\ddot\\theta + 2g\\sin\\theta = 0$") == "-M");
+    const std::string orbit = test::textbook_text("central_force"), wedge = test::textbook_text("block_on_wedge");
+    CHECK(statuses(orbit, "We have $\\dot r = \\sqrt{\\frac{2}{m}(E + \\frac{k}{r}) - r^2\\dot\\phi^2}$.") == "R");
+    CHECK(statuses(orbit, "We have $\\dot r = \\pm\\sqrt{\\frac{2}{m}(E + \\frac{k}{r}) - r^2\\dot\\phi^2}$.") ==
+          "R");
+    CHECK(statuses(orbit, "We have $\\dot r = \\sqrt{\\frac{2}{m}(E - \\frac{k}{r}) - r^2\\dot\\phi^2}$.") == "M");
+    CHECK(statuses(wedge, "Momentum is conserved, so $(M+m)\\dot X - m\\dot s\\cos\\alpha = C$.") == "M");
+    CHECK(statuses(wedge, "Momentum is conserved, so $(M+m)\\dot X + m\\dot s\\cos\\alpha = C$.") == "R");
+    CHECK(statuses(orbit, "Since $\\phi$ is cyclic the angular momentum $L_z = mr\\dot\\phi$ is conserved.") ==
+          "M");
+    CHECK(statuses(orbit, "Angular momentum conservation: $r^2\\dot\\phi = h$.") == "R");
+    CHECK(statuses(orbit, "It starts from rest. $$m r\\dot\\varphi = \\mathrm{const}$$") == "M");
+}
+
+TEST_CASE("readings: small motions about a state that the author names") {
+    const std::string turning = test::textbook_text("bead_on_turning_circle");
+    const std::string written = "Write $r = l_0 + mg/k + \\xi$. For small oscillations\n\n";
+    CHECK(
+        statuses(spring, written + "$$m\\ddot\\xi + k\\xi = 0$$\n$$(l_0 + mg/k)\\ddot\\theta + g\\theta = 0$$") ==
+        "DRR");
+    CHECK(
+        statuses(spring, written + "$$m\\ddot\\xi - k\\xi = 0$$\n$$(l_0 + mg/k)\\ddot\\theta - g\\theta = 0$$") ==
+        "DMM");
+    CHECK(statuses(turning,
+                   "Put $\\theta = \\pi + \\varepsilon$. For small $\\varepsilon$ we get "
+                   "$\\ddot\\varepsilon - \\Omega^2\\varepsilon = 0$.") == "DR");
+    CHECK(statuses(spring, "For small angles $$p_\\theta = m r\\dot\\theta$$") ==
+          "M");  // the spring does not rest at r = 0
+    CHECK(statuses(pendulum, "For small angles $\\cos\\theta \\approx 1 + \\frac12\\theta^2$") == "M");
+    CHECK(statuses(pendulum, "For small angles $\\cos\\theta \\approx 1$, $\\sin\\theta \\approx \\theta$") ==
+          "RR");
+    CHECK(statuses(pendulum, "$$l\\ddot\\theta + g\\theta = 0$$ for small angles.") == "R");
+    for (const char* words : {"Small angles will be considered in the next section.",
+                              "Before we linearize:", "No small-angle approximation is made.",
+                              "## Small oscillations\n\nFirst the exact equation."})
+        CHECK_MESSAGE(
+            statuses(hoop, std::string(words) + "\n\n$$R\\ddot\\theta - R\\Omega^2\\sin\\theta + g\\sin\\theta = "
+                                                "0$$") == "M",
+            words);
+}
+
+TEST_CASE("readings: bodies in the author's order, components and forces of his own, states that words set") {
+    const std::string hanging = test::textbook_text("hoop_pendulum"), orbit = test::textbook_text("central_force");
+    const std::string second =
+        "$T_2 = \\frac12 m(\\dot x^2 + 2l\\dot x\\dot\\theta\\cos\\theta + l^2\\dot\\theta^2)$";
+    CHECK(statuses(hanging, "$T_1 = \\frac12 M\\dot x^2 + \\frac12 M R^2\\dot\\psi^2$, " + second) == "RR");
+    CHECK(statuses(hanging, "$T_1 = \\frac12 M\\dot x^2 + \\frac13 M R^2\\dot\\psi^2$, " + second) == "MR");
+    CHECK(statuses(orbit, "$v_r = \\dot r$, $v_\\phi = r\\dot\\phi$") == "DD");
+    const std::string governor = test::textbook_text("watt_governor");
+    CHECK(statuses(governor, "稳定转动时 $\\dot\\alpha=\\ddot\\alpha=0$。") == "--");
+    CHECK(statuses(governor, "稳态运动时\n\n$$\\cos\\alpha=\\frac{(m+M)g}{ml\\Omega^2}$$") == "R");
+    CHECK(statuses(governor, "稳态运动时\n\n$$\\cos\\alpha=\\frac{(m-M)g}{ml\\Omega^2}$$") == "-");
+    CHECK(statuses(pendulum, "Set $\\ddot\\theta = 0$, $\\dot\\theta = 0$.") == "--");
+    CHECK(statuses(pendulum, "Hence $\\ddot\\theta = 0$.") == "M");
+    const std::string bars = test::textbook_text("hinged_bars");
+    CHECK(statuses(bars, "In equilibrium. We find $$\\tan\\frac\\theta2 = \\frac{2P}{mg}$$") == "R");
+    CHECK(statuses(bars, "In equilibrium. We find $$\\tan\\frac\\theta2 = \\frac{P}{mg}$$") == "M");
+}
+
 // What is heard in one language is heard in the others.
 // Words that a person writes beside his lines excuse none that is wrong.
 TEST_CASE("readings: ordinary prose hides no wrong line") {

@@ -57,7 +57,8 @@ std::vector<std::string> hands_of(const std::string& base) {
         {"varphi", "phi"}, {"vartheta", "theta"}, {"varepsilon", "epsilon"},
         {"varrho", "rho"}, {"varkappa", "kappa"}, {"varsigma", "sigma"},
         {"ell", "l"},      {"hbar", "h"},         {"imath", "i"},
-        {"varpi", "pi"}};
+        {"varpi", "pi"},   {"th", "theta"},       {"ph", "phi"},
+        {"om", "omega"}};
     std::vector<std::string> result{base};
     for (const auto& [variant, letter] : plain) {
         if (variant == base) result.push_back(letter);

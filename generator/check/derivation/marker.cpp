@@ -221,7 +221,7 @@ void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
     notes_.back().right = sides.right;
     const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
     const std::optional<bool> holds = system_.rows().holds(row);
-    if (!holds && says_rest() && (is_root(line, sides) || holds_at_rest(line, sides))) return;
+    if (!holds && says_rest() && (is_equilibrium(line, sides) || holds_at_rest(line, sides))) return;
     if (!holds) {
         line.reason = say("it could not be evaluated");
         return;

@@ -92,12 +92,14 @@ private:
     bool is_assumption(MarkedLine& line, const Sides& sides);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
+    bool is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
+    bool is_potential_of_all(MarkedLine& line, const Sides& sides);
     bool is_energy_of_part(MarkedLine& line, const Sides& sides);
     bool is_of_own_gauge(MarkedLine& line, const Sides& sides);
 
@@ -136,6 +138,7 @@ private:
     bool is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool speaks_of_acceleration() const;
     std::optional<GiNaC::ex> force_along_speed(const Letter& letter) const;
+    bool is_value_of(const Math& value, const GiNaC::ex& truth);
     GiNaC::ex numbered_otherwise(const Letter& letter, const Math& value, const GiNaC::ex& part);
     std::optional<GiNaC::ex> other_force(const Letter& letter, const Math& value,
                                          const std::optional<GiNaC::ex>& force);

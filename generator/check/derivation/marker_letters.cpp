@@ -178,6 +178,9 @@ bool Marker::bind_to_part(const Letter& letter, const Math* value) {
     if (!part) part = force_along_speed(letter);
     if (part && value != nullptr) part = numbered_otherwise(letter, *value, *part);
     if (value != nullptr && letter.base == "F" && letter.raised.empty()) part = other_force(letter, *value, part);
+    const bool is_numbered_force = letter.base == "F" && letter.raised.empty() && !letter.index.empty() &&
+                                   letter.index.find_first_not_of("0123456789") == std::string::npos;
+    if (part && is_numbered_force && !(value != nullptr && is_value_of(*value, *part))) return false;  // of body 1
     if (!part) return false;
     const std::string name = bind(letter, *part);
     const bool of_force = letter.base == "Q" && !letter.raised.empty() && letter.raised != "*";
@@ -190,21 +193,25 @@ bool Marker::bind_to_part(const Letter& letter, const Math* value) {
     return true;
 }
 
+bool Marker::is_value_of(const Math& value, const ex& truth) {
+    MotionRows& rows = system_.rows();
+    const ex stated = truth_.value(claim_text(value, {.letters = letters_}).text);
+    return rows.is_identity(rows.row(stated - truth)) == true;
+}
+
 /// T_1 is that of the first body in the author's order, which is another one where that makes the line right.
 ex Marker::numbered_otherwise(const Letter& letter, const Math& value, const ex& part) {
     const std::string& index = letter.index;
     const bool is_number = index.size() == 1 && index[0] >= '1' && index[0] <= '9' && letter.raised.empty();
     const bool is_energy = letter.base == "T" || letter.base == "V" || letter.base == "K" || letter.base == "U";
     if (!is_number || !is_energy) return part;
-    MotionRows& rows = system_.rows();
-    const ex stated = truth_.value(claim_text(value, {.letters = letters_}).text);
-    if (rows.is_identity(rows.row(stated - part)) == true) return part;
+    if (is_value_of(value, part)) return part;
     for (char k = '1'; k <= '9'; ++k) {
         Letter other = letter;
         other.index = k;
         const std::optional<ex> candidate = part_named(other, letters_, system_);
         if (!candidate) break;
-        if (rows.is_identity(rows.row(stated - *candidate)) == true) return *candidate;
+        if (is_value_of(value, *candidate)) return *candidate;
     }
     return part;
 }

@@ -96,13 +96,18 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
+    const auto is_input = [&](const std::string& name) {
+        return std::any_of(system_.scene().inputs.begin(), system_.scene().inputs.end(),
+                           [&](const Input& input) { return name == input.name.text; });
+    };
     if (ends_with_near(statement_->words)) speaks_of_small_ = true;  // "near θ = 0 it gives"
     const auto moves = [&](const ClaimText& side) {
         return std::any_of(side.names.begin(), side.names.end(),
-                           [&](const std::string& name) { return letters_.moves(name); });
+                           [&](const std::string& name) { return letters_.moves(name) && !is_input(name); });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
-    if (begins_condition_of_state(statement_->words)) under_condition_ = lines_of_condition;
+    if (begins_condition_of_state(statement_->words) || ends_at_place(statement_->words))
+        under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
     return true;
@@ -172,6 +177,22 @@ void Marker::use_all_forces(bool all) {
     }
 }
 
+/// V = −m g l cos θ − P x: the loads that have a potential are in it.
+bool Marker::is_potential_of_all(MarkedLine& line, const Sides& sides) {
+    const std::string name = letters_.name_of(MechanicalQuantity::potential);
+    if (sides.left.text != name) return false;
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    const std::vector<ex> slopes = m.z->pull_back({{truth_.value(sides.right.text), 1}}, m.q),
+                          all = system_.forces(true);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (rows.is_identity(rows.row(slopes[i] + all[i])) != true) return false;
+    line.status = LineStatus::right_up_to_constant;
+    line.reason = say("with the potential of the loads");
+    notes_.back().claim = {};
+    return true;
+}
+
 /// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a
 /// Lagrangian.
 bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residual) {
@@ -192,6 +213,7 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
             return true;
         }
     }
+    if (speaks_of({MechanicalQuantity::potential}) && is_potential_of_all(line, sides)) return true;
     if (!speaks_of({MechanicalQuantity::lagrangian})) return false;
     for (const ex& row : euler_operator(residual, m))
         if (rows.is_identity(rows.row(row)) != true) return false;

@@ -90,11 +90,32 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     return true;
 }
 
+/// cos θ = (a + √(a² + 32 r²))/(8 r): the angle of an equilibrium.
+bool Marker::is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value) {
+    const bool is_function = side.kind == Kind::call && side.args.size() == 1 &&
+                             (side.text == "cos" || side.text == "sin" || side.text == "tan");
+    if (!is_function || side.args[0]->kind != Kind::letter || side.args[0]->dots > 0) return false;
+    const auto name = letters_.name_of(side.args[0]->letter);
+    if (!name || !letters_.moves(*name) || !holds_letters_only(value.names, system_.scene())) return false;
+    const Expression angle = parsed("a" + side.text + "(" + value.text + ")");
+    if (!angle) return false;
+    const CheckedClaim found =
+        check_equilibrium({system_.scene(), system_.mechanism(), {{*name, angle}}, system_.sheets()});
+    if (found.verdict == Verdict::refuted) return false;
+    line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::undecided;
+    line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : say("it could not be evaluated");
+    notes_.back().claim = {};
+    return true;
+}
+
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
     if ((speaks_of_roots_ || says_rest()) && is_root(line, sides)) return true;
     if (says_rest() && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
     if (!speaks_of_rest_ && !statement_->displayed) return false;
+    if (says_rest() &&
+        (is_angle_of_rest(line, *sides.lhs, sides.right) || is_angle_of_rest(line, *sides.rhs, sides.left)))
+        return true;
     const auto is_state = [&](const Math& a, const ClaimText& b) {
         return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
                holds_letters_only(b.names, system_.scene());

@@ -177,7 +177,8 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         return;
     }
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
-    const bool is_rest_alone = speaks_of_rest_ && !statement_->displayed && system_.mechanism().size() > 1;
+    const bool is_rest_alone = speaks_of_rest_ && !has_rates(lhs) && !has_rates(rhs) && !statement_->displayed &&
+                               system_.mechanism().size() > 1;
     if (holds_in_special_case(lhs, rhs)) {
         line.status = LineStatus::right;
         line.reason = say("for the values of parameters that the derivation states");

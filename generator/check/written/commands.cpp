@@ -99,7 +99,7 @@ void list_signs(CommandTable& table) {
     list_tokens(table, TokenKind::open, "llbracket lfloor lceil", "[");
     list_tokens(table, TokenKind::close, "rrbracket rfloor rceil", "]");
     list_tokens(table, TokenKind::close, "rparen", ")");
-    list_tokens(table, TokenKind::stray, "pm mp", "±");
+    list_tokens(table, TokenKind::stray, "pm mp");
     list_tokens(table, TokenKind::text, "forall", "for all");
     list_tokens(table, TokenKind::semicolon, "colon");
     list_tokens(table, TokenKind::row, "newline tabularnewline", "");

@@ -44,6 +44,7 @@ bool is_joining_sign(const WrittenToken& token) {
 /// $=$ or $\\Rightarrow$ among words.
 bool is_sign_alone(const std::vector<WrittenToken>& tokens) {
     using Kind = WrittenToken::Kind;
+    if (tokens[0].kind == Kind::index) return true;  // CO$_2$
     return tokens.size() == 1 &&
            (is_joining_sign(tokens[0]) || tokens[0].kind == Kind::arrow || tokens[0].kind == Kind::divide ||
             tokens[0].kind == Kind::partial || tokens[0].kind == Kind::dots || tokens[0].kind == Kind::comma ||

@@ -308,6 +308,7 @@ MathPtr MathParser::after_it(MathPtr result, std::size_t begin) {
                 (token(range.begin).letter.base == "T" || token(range.begin).letter.base == "top");
             if (is_transposed && (result->kind == Math::Kind::vector || result->kind == Math::Kind::matrix)) {
                 at_ = std::max(range.end, at_);
+                if (is(Kind::end_group)) ++at_;  // ^{T}
                 if (result->kind == Math::Kind::matrix && result->args.size() == 1) result = result->args[0];
                 continue;
             }

@@ -248,7 +248,8 @@ private:
         const bool has_root = std::any_of(own.begin(), own.end(), [](const WrittenToken& token) {
             return token.text == "sqrt" && (token.kind == PartKind::command || token.kind == PartKind::function);
         });
-        if (has_root && own.front().text == "±") own.erase(own.begin());  // of both branches one is read
+        if (has_root && (own.front().text == "pm" || own.front().text == "mp"))
+            own.erase(own.begin());  // of both branches one is read
         if (own.empty()) {
             const WrittenToken& near = tokens_[std::min(begin, tokens_.size() - 1)];
             throw NotUnderstood{near.offset, near.length,

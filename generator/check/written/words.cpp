@@ -303,6 +303,16 @@ bool speaks_of_frequency(std::string_view words) {
         "frequenc*|频率*|frequenz*|kreisfrequenz|eigenfrequenz*|period|周期*|frecuencia*|fréquence*");
 }
 
+bool ends_at_place(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',')) sentence.pop_back();
+    for (const std::string_view place :
+         {"lowest point", "highest point", "bottom", "top", "punto más bajo", "punto más alto", "tiefsten punkt",
+          "höchsten punkt", "最低点", "最高点", "point le plus bas"})
+        if (sentence.ends_with(place)) return true;
+    return false;
+}
+
 bool sets_value(std::string_view words) {
     std::string sentence = last_sentence(words);
     while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',')) sentence.pop_back();

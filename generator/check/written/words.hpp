@@ -72,6 +72,9 @@ bool ends_with_near(std::string_view words);
 /// "The natural frequency", "period".
 bool speaks_of_frequency(std::string_view words);
 
+/// "At the lowest point," before a formula: it describes the state there.
+bool ends_at_place(std::string_view words);
+
 /// "Set", "put": the formula that comes next is set so, and claims nothing.
 bool sets_value(std::string_view words);
 
