@@ -67,9 +67,10 @@ void choose_language(std::vector<std::string>& words) {
             say("Chinese is missing: this program was built without msgfmt; install gettext, configure and build "
                 "again"));
     const bool is_for_programs = std::find(words.begin(), words.end(), "--json") != words.end();
-    if (is_for_programs || asked.value_or(of_the_environment()) != "zh" || chinese_catalogue.empty()) return;
+    if (chinese_catalogue.empty()) return;
     static const MessageCatalogue chinese(chinese_catalogue);
-    use_catalogue(&chinese);
+    know_catalogue(&chinese);
+    if (!is_for_programs && asked.value_or(of_the_environment()) == "zh") use_catalogue(&chinese);
 }
 
 }  // namespace alembert

@@ -27,6 +27,11 @@ std::string label(const Origin& origin) {
     return fmt::vformat(pattern(origin), fmt::make_format_args(number, origin.name));
 }
 
+std::vector<std::string> labels(const Origin& origin) {
+    const int number = origin.index + 1;
+    return in_each_language(pattern(origin), fmt::make_format_args(number, origin.name));
+}
+
 std::string shown_label(const Origin& origin) {
     const int number = origin.index + 1;
     return translated_with(pattern(origin), fmt::make_format_args(number, origin.name));

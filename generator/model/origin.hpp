@@ -72,6 +72,9 @@ inline constexpr OriginWords origin_words[] = {
 /// "body A", "rotation of body A", "spring 1", "force 2 at P", "[energy] kinetic".
 std::string label(const Origin& origin);
 
+/// The same in each language in which people may write it.
+std::vector<std::string> labels(const Origin& origin);
+
 /// The same in the language of the reader; `label` is for emitted code, which is English.
 std::string shown_label(const Origin& origin);
 

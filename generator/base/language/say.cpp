@@ -12,11 +12,30 @@ namespace alembert {
 namespace {
 
 const MessageCatalogue* in_use = nullptr;
+const MessageCatalogue* known = nullptr;
+
+std::string formatted(const MessageCatalogue* catalogue, fmt::string_view english, fmt::format_args values) {
+    const std::string_view other =
+        catalogue == nullptr ? std::string_view() : catalogue->translation({english.data(), english.size()});
+    if (!other.empty()) try {
+            return fmt::vformat(other, values);
+        } catch (const fmt::format_error&) {  // the translation asks for other values than there are
+        }
+    return fmt::vformat(english, values);
+}
 
 }  // namespace
 
 void use_catalogue(const MessageCatalogue* catalogue) {
     in_use = catalogue;
+}
+
+void know_catalogue(const MessageCatalogue* catalogue) {
+    known = catalogue;
+}
+
+std::vector<std::string> in_each_language(fmt::string_view english, fmt::format_args values) {
+    return {formatted(nullptr, english, values), formatted(known, english, values)};
 }
 
 std::string translated(std::string_view english) {
@@ -35,13 +54,7 @@ std::string translated_parts(std::string_view english) {
 }
 
 std::string translated_with(fmt::string_view english, fmt::format_args values) {
-    const std::string_view other =
-        in_use == nullptr ? std::string_view() : in_use->translation({english.data(), english.size()});
-    if (!other.empty()) try {
-            return fmt::vformat(other, values);
-        } catch (const fmt::format_error&) {  // the translation asks for other values than there are
-        }
-    return fmt::vformat(english, values);
+    return formatted(in_use, english, values);
 }
 
 }  // namespace alembert

@@ -15,6 +15,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/language/say.hpp"
 
@@ -25,6 +26,13 @@ class MessageCatalogue;
 /// The catalogue from which texts are taken from now on; without one they are English. To be called before other
 /// threads begin. The catalogue must live as long as texts are asked for.
 void use_catalogue(const MessageCatalogue* catalogue);
+
+/// What people write is recognized in the language of this catalogue too, whatever they read. It must live as
+/// long.
+void know_catalogue(const MessageCatalogue* catalogue);
+
+/// `english` with its values, as in fmt::format, in English and in the language of the catalogue that is known.
+std::vector<std::string> in_each_language(fmt::string_view english, fmt::format_args values);
 
 /// The translation of a text without values, or the text itself where there is none.
 std::string translated(std::string_view english);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "check/derivation/letters.hpp"
 
@@ -32,8 +34,9 @@ bool names(const std::string& index, const std::string& name, std::size_t k) {
            (full.size() > 1 && full.substr(1) == word);
 }
 
-/// The things of the scene, those that the index names alone if there are any.
-std::vector<Place3> matching(const std::vector<std::string>& things, const std::string& index) {
+/// The things of the scene, those that the index names alone if there are any. `is_open`: a number may also mean
+/// another one.
+std::vector<Place3> matching(const std::vector<std::string>& things, const std::string& index, bool is_open) {
     std::vector<Place3> result;
     for (const bool exactly : {true, false}) {
         for (std::size_t k = 0; k < things.size(); ++k)
@@ -41,8 +44,8 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
                 result.push_back({things[k], true});
         if (!result.empty()) break;
     }
-    const bool is_number = std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (!result.empty() && !is_number) return result;
+    const bool is_number = !index.empty() && index.find_first_not_of("0123456789") == std::string::npos;
+    if (!result.empty() && (!is_number || !is_open)) return result;
     for (const std::string& thing : things)  // an author counts in an order of his own
         if (result.empty() || thing != result[0].name) result.push_back({thing, things.size() == 1});
     return result;
@@ -55,14 +58,29 @@ std::vector<std::string> masses_of(const Scene& scene) {
     return result;
 }
 
+/// Each mass that is a parameter alone, with what has it, where only one has.
+std::map<std::string, std::string> masses_with_parameters(const Scene& scene) {
+    std::map<std::string, std::string> result;
+    std::set<std::string> several;
+    const auto take = [&](const Expression& mass, const Name& name) {
+        if (!result.emplace(mass.text, name.text).second) several.insert(mass.text);
+    };
+    for (const Particle& p : scene.particles) take(p.mass, p.name);
+    for (const Body& b : scene.bodies) take(b.mass, b.name);
+    for (const std::string& mass : several) result.erase(mass);
+    return result;
+}
+
 std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
     const std::vector<std::string> masses = masses_of(scene);
-    std::vector<Place3> result = matching(masses, index);
+    std::vector<Place3> result = matching(masses, index, !is_counted(scene));
+    for (const auto& [mass, thing] : masses_with_parameters(scene))  // v_M of the cart, whose mass is M
+        if (mass == index) result = {{thing, true}};
     const bool named = !result.empty() && result[0].named;
     if (named && !plain_word(index).empty()) return result;
     std::vector<std::string> points;
     for (const Point& p : scene.points) points.push_back(p.name.text);
-    const std::vector<Place3> others = matching(points, index);
+    const std::vector<Place3> others = matching(points, index, false);
     const bool is_named =
         std::any_of(points.begin(), points.end(),
                     [&, k = std::size_t{0}](const auto& name) mutable { return names(index, name, k++); });
@@ -125,6 +143,19 @@ std::vector<Binding> angular_velocity_named(const Letter& letter, const Scene& s
 
 }  // namespace
 
+bool is_counted(const Scene& scene) {
+    const auto ends_with_number = [](const std::string& name) {
+        return !name.empty() && name.back() >= '0' && name.back() <= '9';
+    };
+    return std::any_of(
+               scene.parameters.begin(), scene.parameters.end(),
+               [&](const Parameter& p) { return p.name.text[0] == 'm' && ends_with_number(p.name.text); }) ||
+           std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
+                       [&](const Coordinate& c) { return ends_with_number(c.name.text); }) ||
+           std::any_of(scene.particles.begin(), scene.particles.end(),
+                       [&](const Particle& p) { return ends_with_number(p.name.text); });
+}
+
 std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
     if (!letter.raised.empty()) return angular_velocity_named(letter, scene);
     std::vector<Binding> result;
@@ -151,7 +182,7 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
     std::vector<std::string> bodies;
     for (const Body& b : scene.bodies) bodies.push_back(b.name.text);
     if (base == "omega" || base == "Omega")
-        for (const Place3& body : matching(bodies, component < 0 ? letter.index : rest)) {
+        for (const Place3& body : matching(bodies, component < 0 ? letter.index : rest, !is_counted(scene))) {
             const std::string text =
                 fmt::format("dot(omega({0}),{1}({2}))", body.name, axis_names[component < 0 ? 2 : component],
                             component < 0 ? "N" : body.name);

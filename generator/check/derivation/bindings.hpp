@@ -25,6 +25,9 @@ struct Binding {
     std::string point{};    ///< of a place or velocity: the particle, body or point
 };
 
+/// Whether the scene counts its things itself: m1, theta2. Otherwise an author counts in an order of his own.
+bool is_counted(const Scene& scene);
+
 std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene);
 
 /// x_1 along all axes of space and of the scene's frames, as an author may lay his own.

@@ -354,11 +354,6 @@ Lone lone_letter(const Math& side) {
     return is_square ? Lone{side.args[0].get(), 2} : Lone{};
 }
 
-bool has_rates(const Math& math) {
-    return ((math.kind == Math::Kind::letter || math.kind == Math::Kind::rate) && math.dots > 0) ||
-           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return has_rates(*arg); });
-}
-
 bool is_accelerated(const Math& math) {
     return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(),
                                         [](const MathPtr& arg) { return is_accelerated(*arg); });

@@ -62,9 +62,6 @@ struct ClaimWriting {
 /// Throws NoMeaning.
 ClaimText claim_text(const Math& math, const ClaimWriting& writing);
 
-/// Whether a letter with a dot, or d/dt of something, stands in it.
-bool has_rates(const Math& math);
-
 /// Whether an acceleration stands in it.
 bool is_accelerated(const Math& math);
 

@@ -88,6 +88,15 @@ std::optional<ex> linear_part(const ex& residual, const BaseState& base, const D
     return along.diff(small).subs(small == 0, GiNaC::subs_options::no_pattern);
 }
 
+std::optional<ex> part_of_first_order(const ex& residual, const BaseState& base, const DerivedSystem& system) {
+    const Mechanism& m = system.mechanism();
+    if (m.z->tree_size(residual) > longest) return std::nullopt;
+    const GiNaC::symbol small("small");
+    const ex along = along_deviations(residual, base, small, system);
+    const auto at_base = [&](const ex& e) { return e.subs(small == 0, GiNaC::subs_options::no_pattern); };
+    return at_base(along) + at_base(along.diff(small));
+}
+
 std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
                                          const std::map<std::string, ex>& known) {
     LineClaim near = line;

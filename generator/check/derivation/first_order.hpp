@@ -33,6 +33,10 @@ bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool 
 std::optional<GiNaC::ex> linear_part(const GiNaC::ex& residual, const BaseState& base,
                                      const DerivedSystem& system);
 
+/// The same with its value at the base state.
+std::optional<GiNaC::ex> part_of_first_order(const GiNaC::ex& residual, const BaseState& base,
+                                             const DerivedSystem& system);
+
 /// Whether the line holds on every motion near the state, to first order; nothing if that cannot be told (the
 /// state is no equilibrium).
 std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,

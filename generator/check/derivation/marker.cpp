@@ -140,7 +140,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     } catch (const NoMeaning&) {  // what has no value for itself is not excused
     }
     const bool is_of_rest = line.status == LineStatus::not_about_scene && is_rest_assumed_;
-    if (!is_of_rest && (has_rates(lhs) || has_rates(rhs))) is_rest_assumed_ = false;
+    if (!is_of_rest && (holds_rates(lhs) || holds_rates(rhs))) is_rest_assumed_ = false;
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
@@ -173,7 +173,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
     try {
-        if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;
+        if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs, true)) return;
         judge_pair(line, lhs, rhs);
     } catch (const NoMeaning& reason) {
         if (reason.unknown && introduce_ahead(*reason.unknown)) return judge(line, lhs, rhs, relation);
@@ -281,7 +281,10 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
     const bool founded =
         is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
-    if (founded) return;
+    if (founded) {
+        note_reduced(sides, row);
+        return;
+    }
     line.status = LineStatus::unfounded;
     line.follows_from = wrong;
     line.reason = say("it is right, but it does not follow from what stands above");

@@ -100,11 +100,14 @@ private:
     bool is_root(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
     bool is_potential_of_all(MarkedLine& line, const Sides& sides);
+    void note_reduced(const Sides& sides, const MotionRow& row);
+    bool is_constant_of_potential(MarkedLine& line, const Sides& sides, const Letter& letter,
+                                  const GiNaC::ex& value);
     bool is_energy_of_part(MarkedLine& line, const Sides& sides);
     bool is_of_own_gauge(MarkedLine& line, const Sides& sides);
 
-    bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs);
-    bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text);
+    bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool turned = false);
+    bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text, bool turned);
     bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void hold_against_momenta(MarkedLine& line, const Math& value);
@@ -120,8 +123,9 @@ private:
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
     bool is_written_rate(const Math& side) const;
     bool is_wrong_derivative(MarkedLine& line, const Sides& sides);
+    std::vector<CheckedClaim> checked_alone(const LineClaim& claim) const;
     bool is_on_branch(MarkedLine& line, const Sides& sides);
-    bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text);
+    bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned);
     void take_in_special_case(const Math& lhs, const Math& rhs);
     bool holds_in_special_case(const Math& lhs, const Math& rhs);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
@@ -130,6 +134,8 @@ private:
     bool is_on_other_axis(const Letter& letter, const GiNaC::ex& value);
     void count_velocity(const Letter& letter, int dots, const std::string& text);
     bool bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool is_input(const std::string& name) const;
+    bool holds_rates(const Math& math) const;
     bool says_rest() const;
     bool assumes_rest() const;
     bool is_parameter_identity(const Math& lhs, const Math& rhs);

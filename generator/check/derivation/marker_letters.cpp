@@ -204,7 +204,7 @@ ex Marker::numbered_otherwise(const Letter& letter, const Math& value, const ex&
     const std::string& index = letter.index;
     const bool is_number = index.size() == 1 && index[0] >= '1' && index[0] <= '9' && letter.raised.empty();
     const bool is_energy = letter.base == "T" || letter.base == "V" || letter.base == "K" || letter.base == "U";
-    if (!is_number || !is_energy) return part;
+    if (!is_number || !is_energy || is_counted(system_.scene())) return part;
     if (is_value_of(value, part)) return part;
     for (char k = '1'; k <= '9'; ++k) {
         Letter other = letter;
@@ -252,7 +252,7 @@ std::optional<ex> Marker::force_along_speed(const Letter& letter) const {
 }
 
 /// A letter alone on one side may be introduced here. Returns whether it was; then the line is judged.
-bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
+bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool turned) {
     const Lone lone = lone_letter(lhs);
     if (lone.letter == nullptr) return false;
     const bool is_gibbs = speaks_of_gibbs_ && lone.letter->letter.base == "S" && is_accelerated(rhs);
@@ -275,7 +275,7 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     }
     if (bind_to_part(lone.letter->letter, &rhs)) return false;
     const ClaimText text = claim_text(rhs, {.letters = letters_});
-    if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
+    if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text, turned)) return true;
     if (is_frequency(line, *lone.letter, rhs, lone.power)) return true;
     if (bind_to_scene(line, *lone.letter, rhs, lone.power)) return true;
     define(line, *lone.letter, rhs, lone.power);
@@ -313,7 +313,7 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
 }
 
 /// T + V = const: an expression that changes with the state and keeps its value.
-bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text) {
+bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text, bool turned) {
     const Mechanism& m = system_.mechanism();
     const ex value = truth_.value(text.text);
     if (m.z->depends(value, m.qddot) ||
@@ -321,7 +321,8 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
         return false;
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
-    if (!holds && !is_word_for_constant(letter.letter.base)) return is_said_to_be_conserved(line, text);
+    if (!holds && !is_word_for_constant(letter.letter.base))
+        return is_said_to_be_conserved(line, text, letter.letter, turned);
     std::string name =
         letters_.free_name(is_word_for_constant(letter.letter.base) ? "const" : identifier_of(letter.letter));
     while (constants_.contains(name)) name = letters_.free_name(name + "_");  // each "const" is one of its own
@@ -461,6 +462,10 @@ bool Marker::bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs
 
 /// M x'' = F + S sin θ determines S. What follows must agree with it.
 bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    std::map<Letter, int> all;
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    if (all[letter] > 0) return false;  // ρ'' of a ρ that is not known
     const Letters before = letters_;
     const std::string name = bind(letter, 0);
     const auto give_up = [&] {
@@ -495,6 +500,7 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     });
     known_[name] = *truth;
     truth_.know(name, *truth);
+    if (is_constant_of_potential(line, sides, letter, *truth)) return true;
     own_.state(name, own.value_or(*truth), own_.wrong_in(sides.own_names()));
     note_base(lhs, rhs, letter);
     line.status = LineStatus::definition;  // it may absorb any slip

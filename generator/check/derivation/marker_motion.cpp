@@ -30,6 +30,17 @@ bool is_root_sign(const Math& math) {
            std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_root_sign(*arg); });
 }
 
+bool holds_root(const Math& math) {
+    return (math.kind == Kind::call && math.text == "sqrt") ||
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return holds_root(*arg); });
+}
+
+/// … = C, c_1, h: a constant of integration.
+bool is_letter_of_constant(const Letter& letter) {
+    const bool is_number = letter.index.find_first_not_of("0123456789") == std::string::npos;
+    return (letter.base == "C" || letter.base == "c" || letter.base == "h") && is_number && letter.accent.empty();
+}
+
 }  // namespace
 
 /// d/dt of something written, or the rate of a quantity that the derivation has named.
@@ -66,6 +77,14 @@ bool Marker::is_wrong_derivative(MarkedLine& line, const Sides& sides) {
 
 /// r' = √(2(E − V)/m): true on the branch that the root shows.
 bool Marker::is_on_branch(MarkedLine& line, const Sides& sides) {
+    if (holds_root(*sides.lhs) ||
+        holds_root(*sides.rhs)) {  // x = r cos α + √(l² − r² sin²α), on the scene's branch
+        const std::vector<CheckedClaim> verdicts = checked_alone(notes_.back().claim);
+        if (!verdicts.empty() && verdicts[0].verdict == Verdict::proved) {
+            line.status = LineStatus::right;
+            return true;
+        }
+    }
     if (!is_root_sign(*sides.lhs) && !is_root_sign(*sides.rhs)) return false;
     const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text);
     const ex difference = GiNaC::pow(left, 2) - GiNaC::pow(right, 2);
@@ -77,11 +96,22 @@ bool Marker::is_on_branch(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// The verdict on one claim; none where it could not be asked for.
+std::vector<CheckedClaim> Marker::checked_alone(const LineClaim& claim) const {
+    try {
+        return system_.check({claim}, known_to_check());
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
 /// "Momentum is conserved, so … = C": the words say that it keeps its value. Returns whether they do.
-bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text) {
+bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned) {
     const Mechanism& m = system_.mechanism();
     const ex value = truth_.value(text.text);
-    if (!speaks_of_conservation(said_) || !m.z->depends(value, m.qdot)) return false;
+    const bool is_said = turned ? speaks_of_conservation(said_) : speaks_of_conservation(words_after_);
+    const bool is_integral = turned && statement_->displayed && is_letter_of_constant(letter);
+    if (!(is_said || is_integral) || !m.z->depends(value, m.qdot)) return false;
     if (m.z->depends(value, m.qddot)) return false;
     line.status = LineStatus::mistake;
     line.reason = say("it does not keep its value");
@@ -128,12 +158,13 @@ bool Marker::holds_in_special_case(const Math& lhs, const Math& rhs) {
         return rows.follows(rows.row(values[0]), pointers, bound);
     };
     if (follow(special, true)) return true;
-    if (!speaks_of_small_) return false;
+    if (!speaks_of_small_ || !m.z->depends(residual, m.qddot))
+        return false;  // energies have no part of first order
     for (const BaseState& base : bases()) {
-        std::vector<ex> linear;
+        std::vector<ex> parts;
         for (const ex& value : special)
-            if (const auto part = linear_part(value, base, system_)) linear.push_back(m.z->name(*part));
-        if (linear.size() == special.size() && follow(linear, false)) return true;
+            if (const auto part = part_of_first_order(value, base, system_)) parts.push_back(m.z->name(*part));
+        if (parts.size() == special.size() && follow(parts, false)) return true;
     }
     return false;
 }

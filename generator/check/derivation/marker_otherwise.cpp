@@ -8,6 +8,7 @@
 #include "base/language/say.hpp"
 #include "check/total_derivative.hpp"
 #include "check/written/words.hpp"
+#include "model/energy.hpp"
 
 namespace alembert {
 
@@ -96,10 +97,6 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
-    const auto is_input = [&](const std::string& name) {
-        return std::any_of(system_.scene().inputs.begin(), system_.scene().inputs.end(),
-                           [&](const Input& input) { return name == input.name.text; });
-    };
     if (ends_with_near(statement_->words)) speaks_of_small_ = true;  // "near θ = 0 it gives"
     const auto moves = [&](const ClaimText& side) {
         return std::any_of(side.names.begin(), side.names.end(),
@@ -243,13 +240,41 @@ bool Marker::is_energy_of_part(MarkedLine& line, const Sides& sides) {
     return false;
 }
 
+/// T = ¾ m (R − a)² φ'² with rolling put in: its derivatives are those of the author's T.
+void Marker::note_reduced(const Sides& sides, const MotionRow& row) {
+    if (system_.equations().A.empty()) return;
+    for (const MechanicalQuantity quantity : {MechanicalQuantity::kinetic, MechanicalQuantity::lagrangian,
+                                              MechanicalQuantity::potential, MechanicalQuantity::hamiltonian})
+        if (sides.left.text == letters_.name_of(quantity) &&
+            !is_identically_zero(row.residual, system_.mechanism()))
+            has_own_gauge_ = true;
+}
+
+/// V = … + const: right if the constant is one.
+bool Marker::is_constant_of_potential(MarkedLine& line, const Sides& sides, const Letter& letter,
+                                      const ex& value) {
+    const bool is_name = is_word_for_constant(letter.base) || letter.base == "C" || letter.base == "c" ||
+                         (letter.base == "V" && letter.index == "0") ||
+                         (letter.base == "U" && letter.index == "0");
+    const std::string V = letters_.name_of(MechanicalQuantity::potential);
+    if (!is_name || (sides.left.text != V && sides.right.text != V)) return false;
+    const Mechanism& m = system_.mechanism();
+    std::vector<ex> slopes = m.z->pull_back({{value, 1}}, m.q);
+    MotionRows& rows = system_.rows();
+    const bool is_constant = std::all_of(
+        slopes.begin(), slopes.end(), [&](const ex& slope) { return rows.is_identity(rows.row(slope)) == true; });
+    line.status = is_constant ? LineStatus::right_up_to_constant : LineStatus::mistake;
+    line.claim = sides.left.text + " = " + sides.right.text;
+    return true;
+}
+
 /// A momentum of the Lagrangian that the derivation has stated, which is right up to a total derivative.
 bool Marker::is_of_own_gauge(MarkedLine& line, const Sides& sides) {
     if (!has_own_gauge_ || own_.wrong_in(sides.own_names())) return false;
     MotionRows& rows = system_.rows();
     if (rows.is_identity(rows.row(own_residual(sides))) != true) return false;
     line.status = LineStatus::right;
-    line.reason = say("with the Lagrangian that stands above");
+    line.reason = say("with the energies that stand above");
     notes_.back().claim = {};
     return true;
 }

@@ -36,6 +36,13 @@ std::vector<std::pair<std::string, Expression>> parsed(const BaseState& base) {
     return result;
 }
 
+/// T_2, V_1: energies of parts too.
+bool is_energy_alone(const Math& side) {
+    static constexpr const char* letters[] = {"T", "K", "V", "U", "L", "E", "H"};
+    return side.kind == Kind::letter && side.dots == 0 &&
+           std::find(std::begin(letters), std::end(letters), side.letter.base) != std::end(letters);
+}
+
 }  // namespace
 
 /// ω² = g/l, T = 2π √(l/g): a letter for a frequency or a period, in parameters. Judged if the words say so, or
@@ -61,6 +68,13 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
         known = true;
         line.checked = found;
         if (found.verdict != Verdict::proved) continue;
+        const Expression other = parsed("2*(" + omega + ")"), third = parsed("3*(" + omega + ")");
+        const AtPoint at{system_.scene(), system_.mechanism(), parsed(state), system_.sheets()};
+        if (check_frequency(at, other).verdict == Verdict::proved &&
+            check_frequency(at, third).verdict == Verdict::proved) {
+            known = false;  // where the inertia matrix is singular any value is one
+            continue;
+        }
         line.status = LineStatus::right_near;
         line.reason = say("a frequency of small vibrations about {}", state.text);
         break;
@@ -111,7 +125,8 @@ bool Marker::is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimTex
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
     if ((speaks_of_roots_ || says_rest()) && is_root(line, sides)) return true;
-    if (says_rest() && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
+    const bool is_of_motion = holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
+    if (says_rest() && !is_of_motion && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
     if (!speaks_of_rest_ && !statement_->displayed) return false;
     if (says_rest() &&
         (is_angle_of_rest(line, *sides.lhs, sides.right) || is_angle_of_rest(line, *sides.rhs, sides.left)))
@@ -193,6 +208,15 @@ bool Marker::is_condition_of_rest(MarkedLine& line, const Sides& sides) {
     return false;
 }
 
+/// Whether a rate stands in it that vanishes at rest: not that of a function of time, which moves the support.
+bool Marker::holds_rates(const Math& math) const {
+    const bool is_letter = (math.kind == Kind::letter || math.kind == Kind::applied) && math.dots > 0;
+    const std::string name = is_letter ? letters_.name_of(math.letter).value_or("") : "";
+    if (is_letter && !letters_.is_function(name) && !is_input(name)) return true;
+    if (math.kind == Kind::rate) return true;
+    return std::any_of(math.args.begin(), math.args.end(), [&](const MathPtr& arg) { return holds_rates(*arg); });
+}
+
 /// "In equilibrium. We find": rest is spoken of here, or was a line before.
 bool Marker::says_rest() const {
     return speaks_of_rest_ || is_rest_assumed_;
@@ -209,7 +233,7 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
             return true;
         }
     }
-    if (!says_rest() || has_rates(*sides.lhs) || has_rates(*sides.rhs)) return false;  // at rest all vanish
+    if (!says_rest() || holds_rates(*sides.lhs) || holds_rates(*sides.rhs)) return false;  // at rest all vanish
     LineClaim claim = notes_.back().claim;
     claim.at_rest = true;
     if (has_quantities(sides)) return false;
@@ -285,7 +309,8 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
     };
     const bool of_potential = speaks_of(MechanicalQuantity::potential) ||
                               speaks_of(MechanicalQuantity::lagrangian) || speaks_of(MechanicalQuantity::energy);
-    const int order = of_potential || speaks_of(MechanicalQuantity::kinetic) ? 2 : 1;
+    const int order =
+        of_potential || speaks_of(MechanicalQuantity::kinetic) || is_energy_alone(*sides.lhs) ? 2 : 1;
     for (const BaseState& base : bases()) {
         if (!may_rest(base, system_)) continue;
         bool holds = is_small(residual, base, order, of_potential, system_);

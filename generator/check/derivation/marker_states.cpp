@@ -59,7 +59,11 @@ bool are_rates_at_rest(const Math& lhs, const Math& rhs) {
 void Marker::hear_conditions(const std::string& words) {
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
-    if (speaks_of_special_motion(words) || states_condition(words)) under_condition_ = lines_of_condition;
+    const std::size_t from = statement_->offset > 60 ? statement_->offset - 60 : 0;
+    const std::string behind = written_.text.substr(from, statement_->offset - from);
+    const bool has_limit = behind.find("\\infty") != std::string::npos || behind.find("∞") != std::string::npos;
+    if (has_limit || speaks_of_special_motion(words) || states_condition(words))
+        under_condition_ = lines_of_condition;
     speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
     from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
 }
@@ -74,13 +78,16 @@ bool Marker::is_value_of_state(const Letter& letter) const {
     return indices.contains(letter.index) && name && letters_.is_of_scene(*name) && letters_.moves(*name);
 }
 
+bool Marker::is_input(const std::string& name) const {
+    const std::vector<Input>& all = system_.scene().inputs;
+    return std::any_of(all.begin(), all.end(), [&](const Input& input) { return name == input.name.text; });
+}
+
 /// m_1 = m_2, I = 0, M → ∞: parameters of the scene alone, which would be numbers otherwise.
 bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const {
     const auto is_parameter = [&](const Letter& letter) {
         const auto name = letters_.name_of(letter);
-        const bool is_input = std::any_of(system_.scene().inputs.begin(), system_.scene().inputs.end(),
-                                          [&](const Input& input) { return name == input.name.text; });
-        return name && letters_.is_of_scene(*name) && (is_input || !letters_.moves(*name)) &&
+        return name && letters_.is_of_scene(*name) && (is_input(*name) || !letters_.moves(*name)) &&
                !letters_.is_function(*name);
     };
     const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
@@ -120,6 +127,7 @@ bool Marker::is_parameter_identity(const Math& lhs, const Math& rhs) {
 
 /// Whether the line states one moment or a condition; then it is told so.
 bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const MarkedLine before = line;
     const auto tell = [&](std::string reason) {
         line.status = LineStatus::not_about_scene;
         line.reason = std::move(reason);
@@ -152,6 +160,12 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         return tell(
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
+    if (says_rest() && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
+        judge_pair(line, lhs, rhs);
+        if (is_right(line.status)) return true;
+        line = MarkedLine(before);
+        notes_.back() = {};
+    }
     if (states_special_case(lhs, rhs, all) && !is_parameter_identity(lhs, rhs)) {
         take_in_special_case(lhs, rhs);
         return tell(say("a condition on parameters; lines are judged for all their values"));
@@ -177,8 +191,8 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         return;
     }
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
-    const bool is_rest_alone = speaks_of_rest_ && !has_rates(lhs) && !has_rates(rhs) && !statement_->displayed &&
-                               system_.mechanism().size() > 1;
+    const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
+                               !statement_->displayed && system_.mechanism().size() > 1;
     if (holds_in_special_case(lhs, rhs)) {
         line.status = LineStatus::right;
         line.reason = say("for the values of parameters that the derivation states");

@@ -2,6 +2,7 @@
 #include "check/derivation/parts.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "check/total_derivative.hpp"
 
@@ -11,9 +12,21 @@ using GiNaC::ex;
 
 namespace {
 
+/// Letters of any alphabet and digits, without blanks.
+std::string without_blanks(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        if (static_cast<unsigned char>(c) >= 0x80 || std::isalnum(static_cast<unsigned char>(c)) != 0)
+            result += static_cast<char>(static_cast<unsigned char>(c) < 0x80 ? std::tolower(c) : c);
+    return result;
+}
+
 /// Does the word name the part: its label, its body, its place in the list, the kind of energy?
 bool names(const std::string& word, const Origin& origin, std::size_t place, bool by_label) {
-    if (by_label) return word == plain_word(label(origin)) || word == plain_word(shown_label(origin));
+    const std::vector<std::string> all = labels(origin);
+    if (by_label)
+        return std::any_of(all.begin(), all.end(),
+                           [&](const std::string& label) { return word == without_blanks(label); });
     if (word == plain_word(origin.name) || word == std::to_string(place + 1)) return true;
     if (origin.kind == Origin::Kind::gravity) return word == "g" || word == "grav" || word == "gravity";
     if (origin.kind == Origin::Kind::spring) return word == "s" || word == "k" || word == "spring" || word == "el";
@@ -56,7 +69,7 @@ std::optional<ex> force_of(const std::string& word, std::size_t coordinate, cons
 
 std::optional<ex> part_named(const Letter& letter, const Letters& letters, const DerivedSystem& system) {
     const Mechanism& m = system.mechanism();
-    const std::string word = plain_word(letter.raised.empty() ? letter.index : letter.raised);
+    const std::string word = without_blanks(letter.raised.empty() ? letter.index : letter.raised);
     if (word.empty() || m.given_lagrangian) return std::nullopt;
     const std::string& base = letter.base;
     if (base == "gap")
