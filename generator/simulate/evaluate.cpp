@@ -41,7 +41,8 @@ std::vector<double> values_of(const Program& program, const std::vector<double>&
 /// The accelerations at a state, or the reason why there are none.
 std::vector<double> accelerations_at(const Derived& d, const Program& program, const State<double>& state) {
     std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
-    if ((!state.q.empty() && massless_combination(program, state)) ||
+    if ((!state.q.empty() && (massless_combination(program, state) ||
+                              is_rank_rounding(program, state, d.equations.kept(d.mechanism)))) ||
         !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
         throw IntegrationError(no_accelerations_at(d, state), state.t, state.q);
     return result;
