@@ -8,12 +8,14 @@
 
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/compile.hpp"
+#include "analysis/contact/impact.hpp"
 #include "codegen/emit/emit.hpp"
 #include "codegen/machine/memory_solver.hpp"
 #include "redundant_plate.hpp"
 #include "scenes.hpp"
 #include "simulate/emission.hpp"
 #include "simulate/evaluate.hpp"
+#include "simulate/inverse.hpp"
 #include "simulate/simulate.hpp"
 
 namespace generator_tied {
@@ -117,10 +119,12 @@ TEST_CASE("tied: the forces on the wheels turn with the cart, and are the least"
 }
 
 TEST_CASE("tied: compiled code, code in memory and packs of a cart hold at every heading") {
-    const Emission e = emission(parse_scene(test::redundant_wheels, "wheels.toml"), {.jacobian = true});
+    const Emission e =
+        emission(parse_scene(test::redundant_wheels, "wheels.toml"), {.jacobian = true, .batch = true});
     const Scene own = parse_scene(cart_in_its_own_axes(), "own.toml");
     std::vector<Module> modules{load(compile(e.source.text, "wheels", {}).object)};
     if (const auto solver = memory_solver(e.choice.program)) modules.push_back(solver->module);
+    int packs = 0;
     for (const Module& module : modules) {
         const std::vector<double> par = prepared(module);
         for (const double th : headings) {
@@ -130,8 +134,21 @@ TEST_CASE("tied: compiled code, code in memory and packs of a cart hold at every
             state.insert(state.end(), expected.rates.begin(), expected.rates.end());
             module.table().rhs(0, state.data(), par.data(), rate.data());
             CHECK(largest_difference({rate.begin() + 5, rate.end()}, expected.accelerations) < 1e-11);
+            if (module.pack() == nullptr) continue;
+            ++packs;
+            std::vector<Lanes> y(10), p(par.size()), rates(10);
+            const Lanes t{};
+            for (std::size_t i = 0; i < y.size(); ++i)
+                for (int lane = 0; lane < lanes; ++lane) y[i][lane] = state[i];
+            for (std::size_t i = 0; i < p.size(); ++i)
+                for (int lane = 0; lane < lanes; ++lane) p[i][lane] = par[i];
+            module.pack()->rhs(reals(&t), reals(y.data()), reals(p.data()), reals(rates.data()));
+            std::vector<double> last;
+            for (std::size_t i = 5; i < 10; ++i) last.push_back(rates[i][lanes - 1]);
+            CHECK(largest_difference(last, expected.accelerations) < 1e-11);
         }
     }
+    CHECK(packs > 0);
 }
 
 TEST_CASE("tied: a cart that is steered to a heading of 90 degrees drives there as with independent constraints") {
@@ -233,6 +250,170 @@ vector = 1.0
         CHECK(largest_difference(e.accelerations, first.accelerations) < 1e-9);
         for (const char* rolling : {"ring1", "mesh1", "ring2", "mesh2"})
             CHECK((force(e, rolling, a) - force(first, rolling, 0.3)).norm() < 1e-9);
+    }
+}
+
+namespace {
+
+/// A bar on three supports.
+const std::string three_supports = R"toml(
+gravity = [0, "-9.81"]
+[coordinates]
+y = 0
+a = 0
+[[frame]]
+name = "B"
+rotate = [["z", "a"]]
+[[body]]
+name = "bar"
+mass = 6
+inertia = 0.5
+frame = "B"
+position = [0, "y"]
+)toml";
+
+const std::string three_constraints = three_supports + R"toml(
+[[constraint]]
+name = "left"
+holonomic = "y - sin(a)"
+[[constraint]]
+name = "middle"
+holonomic = "y + 0.2*sin(a)"
+[[constraint]]
+name = "right"
+holonomic = "y + sin(a)"
+)toml";
+
+/// Forces at -1, 0.2 and 1 m from the middle that hold this weight with the least sum of squares: those that are
+/// linear in the place, F = a + b x with Σ F = weight, Σ F x = 0.
+std::vector<double> least_forces(double weight) {
+    const double places[] = {-1, 0.2, 1};
+    double one = 0, first = 0, second = 0;
+    for (const double x : places) one += 1, first += x, second += x * x;
+    const double b = -weight * first / (one * second - first * first), a = -b * second / first;
+    std::vector<double> forces;
+    for (const double x : places) forces.push_back(a + b * x);
+    return forces;
+}
+
+double by_name(const std::vector<std::pair<std::string, double>>& values, const std::string& name) {
+    for (const auto& [known, value] : values)
+        if (known == name) return value;
+    FAIL("no value of this name");
+    return 0;
+}
+
+bool is_told(const Evaluation& e, const std::string& words) {
+    return std::any_of(e.warnings.begin(), e.warnings.end(),
+                       [&](const std::string& text) { return text.find(words) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("tied: what follows from others bears the least in eval, inverse dynamics and impacts alike") {
+    const Scene scene = parse_scene(three_constraints, "supports.toml");
+    const std::vector<double> forces = least_forces(6 * 9.81);
+    const Evaluation e = evaluate(scene, {});
+    const InverseLoads needed = inverse(scene, {});
+    const Struck struck =
+        impact(parse_scene(three_constraints + "[[impulse]]\nat = \"bar\"\nvector = [0, -2]\n", "struck.toml"));
+    REQUIRE(struck.hit.numbers.bilateral.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::string name = std::vector<std::string>{"lambda_left", "lambda_middle", "lambda_right"}[k];
+        CAPTURE(name);
+        CHECK(by_name(e.multipliers, name) == doctest::Approx(forces[k]).epsilon(1e-12));
+        CHECK(by_name(needed.multipliers, name) == doctest::Approx(forces[k]).epsilon(1e-12));
+        CHECK(struck.hit.numbers.bilateral[static_cast<Eigen::Index>(k)] ==
+              doctest::Approx(forces[k] * 2 / (6 * 9.81)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("tied: inverse dynamics finds loads and forces of a cart at every heading") {
+    const Scene wheels = parse_scene(test::redundant_wheels, "wheels.toml");
+    const auto needed = [&](double th) {
+        Overrides at = rolling_at(th);
+        at.emplace_back("w1''", 1);
+        return inverse(wheels, {.at = at});
+    };
+    const InverseLoads first = needed(0);
+    for (const double th : headings) {
+        CAPTURE(th);
+        const InverseLoads one = needed(th);
+        CHECK(largest_difference(one.loads, first.loads) < 1e-11);
+        CHECK(one.accelerations[4] == doctest::Approx(first.accelerations[4]).epsilon(1e-11));
+        for (const std::string wheel : {"rl", "rr"}) {
+            const double x = by_name(one.multipliers, "lambda_" + wheel + "_x"),
+                         y = by_name(one.multipliers, "lambda_" + wheel + "_y");
+            CHECK(x * std::cos(th) + y * std::sin(th) ==
+                  doctest::Approx(by_name(first.multipliers, "lambda_" + wheel + "_x")).epsilon(1e-11));
+        }
+    }
+}
+
+TEST_CASE("tied: contacts and closed loops whose loads are not determined say so") {
+    const auto gap = [](const std::string& name, const std::string& value) {
+        return "[[unilateral]]\nname = \"" + name + "\"\ngap = \"" + value + "\"\n";
+    };
+    const std::string two = three_supports + gap("left", "y - sin(a)") + gap("right", "y + sin(a)");
+    CHECK(is_told(evaluate(parse_scene(two + gap("middle", "y + 0.2*sin(a)"), "three.toml"), {}),
+                  "how the contacts 'left', 'right', 'middle' share the load is not determined"));
+    CHECK_FALSE(is_told(evaluate(parse_scene(two, "two.toml"), {}), "share the load"));
+    const std::string door = R"toml(
+gravity = [0, 0, "-9.81"]
+[[body]]
+name = "door"
+mass = 20
+inertia = [1.5, 2.3, 0.9]
+[[joint]]
+name = "low"
+type = "revolute"
+parent = "N"
+child = "door"
+child_point = [-0.4, 0, -0.8]
+coordinates = { q = 0.3 }
+)toml",
+                      high = R"toml(
+[[joint]]
+name = "high"
+type = "revolute"
+parent = "N"
+child = "door"
+parent_point = [0, 0, 1.6]
+child_point = [-0.4, 0, 0.8]
+)toml";
+    const std::string words = "the loads of joints in closed loops are not determined";
+    CHECK(is_told(evaluate(parse_scene(door + high, "door.toml"), {.reactions = true}), words));
+    CHECK_FALSE(is_told(evaluate(parse_scene(door, "door.toml"), {.reactions = true}), words));
+}
+
+TEST_CASE("tied: a pose at which the constraints lose rank but for rounding is refused") {
+    const Scene scene = parse_scene(R"toml(
+[parameters]
+r = 0.2
+d = 0.5
+[coordinates]
+q1 = 0.5
+q2 = { guess = 0.5 }
+[[particle]]
+name = "A"
+mass = 1
+position = ["r*cos(q1)", "r*sin(q1)"]
+[[particle]]
+name = "B"
+mass = 2
+position = ["d + r*cos(q2)", "r*sin(q2)"]
+[[constraint]]
+name = "rod"
+holonomic = "norm(pos(B) - pos(A))^2 - d^2"
+[[force]]
+at = "B"
+vector = [0, 1]
+)toml",
+                                    "parallelogram.toml");
+    for (const double lying : {0.0, pi, -pi, 3 * pi}) {
+        CAPTURE(lying);
+        CHECK_THROWS_AS(evaluate(scene, {.at = {{"q1", lying}, {"q2", lying}}}), IntegrationError);
+        CHECK_NOTHROW(evaluate(scene, {.at = {{"q1", lying + 1e-6}, {"q2", lying + 1e-6}}}));
     }
 }
 

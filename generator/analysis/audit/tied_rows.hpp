@@ -13,8 +13,9 @@ namespace alembert {
 
 /// The mechanism with `tie` set for the rows of Mechanism::constraints and Mechanism::redundant that depend on
 /// each other so that the rows in `constraints` lose rank at a pose where all of them together do not. Such poses
-/// are found by the search of singular_poses.hpp, which need not find all. Groups of more than eight rows are left
-/// as they are: what ties them would take too many operations.
+/// are found by the search of singular_poses.hpp, which need not find all, and count where a walk from the initial
+/// state gets to them. Large groups are left as they are (sixteen rows of rank five are not): what ties them would
+/// take too many operations.
 Mechanism with_tied_rows(Mechanism mechanism);
 
 }  // namespace alembert

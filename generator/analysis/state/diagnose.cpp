@@ -8,6 +8,7 @@
 
 #include "alembert/base/dense.hpp"
 #include "base/language/say.hpp"
+#include "program/rounding.hpp"
 
 namespace alembert {
 
@@ -89,7 +90,7 @@ namespace {
 /// The rows of the constraints with a multiplier, of which only the first `rank` are independent where none is
 /// lost.
 struct RowsAt {
-    Eigen::MatrixXd A;  ///< in units of the largest row
+    Eigen::MatrixXd A;  ///< in units of the largest row, with 0 for what is only rounding, like sin π
     std::vector<std::string> names;
     Eigen::Index rank;
 
@@ -98,11 +99,13 @@ struct RowsAt {
         const std::vector<int> rows = program.nodes_of(Group::row), tied = program.nodes_of(Group::tied_row);
         const auto n = static_cast<Eigen::Index>(program.coordinates.size());
         if (kept.empty() || n == 0) return;
-        const std::vector<double> value = interpret(program, state);
+        const std::vector<double> value = interpret(program, state), rounded = rounding_errors(program, state);
         A.resize(rank + static_cast<Eigen::Index>(tied.size()) / n, n);
         for (Eigen::Index k = 0; k < A.rows(); ++k)
-            for (Eigen::Index i = 0; i < n; ++i)
-                A(k, i) = value[k < rank ? rows[kept[k] * n + i] : tied[(k - rank) * n + i]];
+            for (Eigen::Index i = 0; i < n; ++i) {
+                const int node = k < rank ? rows[kept[k] * n + i] : tied[(k - rank) * n + i];
+                A(k, i) = std::abs(value[node]) <= rounded[node] ? 0 : value[node];
+            }
         if (const double largest = A.rowwise().norm().maxCoeff(); largest > 0) A /= largest;
         std::vector<std::string> constraints, others;
         for (const Root& root : program.roots) {
