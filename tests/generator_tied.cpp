@@ -2,6 +2,7 @@
 // Rows that depend on each other so that each of them is needed at some pose, against the same mechanism with
 // independent constraints, and against itself turned by an angle that changes nothing.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <Eigen/Dense>
 #include <numbers>
@@ -168,6 +169,95 @@ TEST_CASE("tied: a cart that is steered to a heading of 90 degrees drives there 
         CHECK(largest_difference(a.final_coordinates, b.final_coordinates) < 1e-5);
         REQUIRE(a.estimate.has_value());
         CHECK(a.estimate->value.value_or(1) < 1e-5);
+    }
+}
+
+namespace {
+
+/// A tricycle whose front fork is turned round and round, by rolling wheels or by constraints along its own axes.
+std::string tricycle(bool in_own_axes) {
+    std::string text = R"toml(
+[parameters]
+r = 0.1
+[coordinates]
+x = 0
+y = 0
+th = 0.3
+fork = 0.2
+w1 = { rate_guess = 0 }
+w2 = { rate_guess = 0 }
+w3 = { rate_guess = 0 }
+[[frame]]
+name = "C"
+rotate = [["z", "th"]]
+[[frame]]
+name = "F"
+parent = "C"
+rotate = [["z", "fork"]]
+[[body]]
+name = "cart"
+mass = 5
+frame = "C"
+inertia = [0.1, 0.2, 0.25]
+position = ["x", "y", "r"]
+)toml";
+    struct Wheel {
+        const char *number, *frame, *place;
+    };
+    for (const Wheel& wheel :
+         {Wheel{"1", "C", "[0, 0.25, 0]"}, Wheel{"2", "C", "[0, -0.25, 0]"}, Wheel{"3", "F", "[0.4, 0, 0]"}}) {
+        text += fmt::format(
+            "[[frame]]\nname = \"W{0}\"\nparent = \"{1}\"\nrotate = [[\"y\", \"w{0}\"]]\n"
+            "[[body]]\nname = \"b{0}\"\nmass = 0.3\nframe = \"W{0}\"\nfrom = \"cart\"\n"
+            "position = {2}\naxes = \"C\"\nshape = {{ disc = \"r\", axis = \"y\" }}\n"
+            "inertia = \"from shape\"\n",
+            wheel.number, wheel.frame, wheel.place);
+        if (!in_own_axes)
+            text += fmt::format("[[rolling]]\nname = \"r{0}\"\nbody = \"b{0}\"\ncontact = [0, 0, \"-r\"]\n",
+                                wheel.number);
+    }
+    if (in_own_axes)
+        for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{
+                 {"side", "y'*cos(th) - x'*sin(th)"},
+                 {"left", "x'*cos(th) + y'*sin(th) - 0.25*th' - r*w1'"},
+                 {"right", "x'*cos(th) + y'*sin(th) + 0.25*th' - r*w2'"},
+                 {"front", "x'*cos(th+fork) + y'*sin(th+fork) + 0.4*th'*sin(fork) - r*w3'"},
+                 {"front_side", "y'*cos(th+fork) - x'*sin(th+fork) + 0.4*th'*cos(fork)"}})
+            text += fmt::format("[[constraint]]\nname = \"{}\"\nnonholonomic = \"{}\"\n", name, value);
+    return text +
+           "[[torque]]\non = \"W1\"\nvector = [0, 0.2, 0]\naxes = \"C\"\nreaction = \"C\"\n"
+           "[[torque]]\non = \"F\"\nvector = [0, 0, 0.01]\nreaction = \"C\"\n";
+}
+
+}  // namespace
+
+TEST_CASE("tied: a tricycle whose fork turns round moves as with independent constraints") {
+    RunOptions wishes;
+    wishes.duration = 3;
+    const Run a = simulate(parse_scene(tricycle(false), "tricycle.toml"), wishes),
+              b = simulate(parse_scene(tricycle(true), "own.toml"), wishes);
+    REQUIRE_FALSE(a.failure.has_value());
+    CHECK(b.final_coordinates[3] > 10);  // the fork has turned round
+    CHECK(largest_difference(a.final_coordinates, b.final_coordinates) < 1e-6);
+}
+
+// The rods are alike and the linkage is the same after a turn of 120 degrees about its axis of symmetry, so that
+// the first, third and fifth angle stay equal. At the pose in which they turn back four of the five rows have
+// rank 3.
+TEST_CASE("tied: the angles of Bricard's linkage stay equal where they turn back") {
+    const Scene scene = read_scene(test::source_path("scenes/benchmark/bricard.toml"));
+    for (const double rate : {0.0, 1.0, -2.0}) {
+        CAPTURE(rate);
+        const Evaluation e = evaluate(scene, {.at = {{"q1", -pi / 6},
+                                                     {"q2", pi / 2},
+                                                     {"q3", -pi / 6},
+                                                     {"q4", pi / 2},
+                                                     {"q5", -pi / 6},
+                                                     {"q2'", rate},
+                                                     {"q4'", rate}}});
+        CHECK(std::abs(e.accelerations[0] - e.accelerations[2]) < 1e-12);
+        CHECK(std::abs(e.accelerations[0] - e.accelerations[4]) < 1e-12);
+        CHECK(e.accelerations[1] == doctest::Approx(e.accelerations[3]).epsilon(1e-12));
     }
 }
 
