@@ -159,6 +159,10 @@ struct Mechanism {
         /// (analysis/state/force_balance.hpp): the multiplier is zero on every motion.
         bool balance = false;
         bool norm = false;  ///< whether this is e·e = 1 of a quaternion: there is no inertia along its row
+        /// Constraints with the same number, in `constraints` and `redundant`, depend on each other with factors
+        /// that change with the pose, so that those in `constraints` alone lose rank at some poses where all of
+        /// them together do not (analysis/audit/tied_rows.hpp).
+        std::optional<int> tie = {};
     };
 
     /// gap(q,t) ≥ 0: the contact is open where the gap is positive, and a constraint with λ ≥ 0 where it is zero.

@@ -17,6 +17,19 @@ MotionSystem motion_system(Program& p) {
         s.K.insert(s.K.end(), static_cast<std::size_t>(++k), p.number(0));
     }
     s.b.insert(s.b.end(), gamma.begin(), gamma.end());
+    const std::vector<int> tied = p.nodes_of(Group::tied_row), tie = p.nodes_of(Group::tie),
+                           tied_gamma = p.nodes_of(Group::tied_gamma);
+    for (std::size_t k = 0; k < tied_gamma.size(); ++k) {
+        const auto row = tied.begin() + static_cast<std::ptrdiff_t>(k) * s.speeds;
+        s.K.insert(s.K.end(), row, row + s.speeds);
+        s.K.insert(s.K.end(), gamma.size() + k + 1, p.number(0));
+    }
+    s.b.insert(s.b.end(), tied_gamma.begin(), tied_gamma.end());
+    for (std::size_t k = 0, at = 0; at < tie.size(); ++k)
+        for (std::size_t j = 0; j <= k; ++j) {
+            const std::size_t i = static_cast<std::size_t>(s.speeds) + k;
+            s.K[i * (i + 1) / 2 + static_cast<std::size_t>(s.speeds) + j] = tie[at++];
+        }
     return s;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The linear system K (u', −λ) = b of a program, with K = [M Aᵀ; A 0] and b = (f, γ).
+/// The linear system K (u', −λ) = b of a program, with K = [M Aᵀ; A 0] and b = (f, γ). Where constraints that
+/// follow from others are tied to these (program/tie.hpp), their rows and γ follow, and −κE stands in place of 0.
 ///
 ///     const MotionSystem system = motion_system(program);  // with speeds_of(program) speeds u
 ///     solve_for_sides(program, system.K, {system.b}, system.speeds);
@@ -16,7 +17,7 @@ namespace alembert {
 struct MotionSystem {
     std::vector<int> K;  ///< nodes of the lower triangle, row by row
     std::vector<int> b;
-    int speeds = 0;  ///< the number of u', which come first; the multipliers that are kept follow
+    int speeds = 0;  ///< the number of u', which come first; the multipliers follow
 
     int size() const { return static_cast<int>(b.size()); }
     int entry(int i, int j) const {

@@ -123,10 +123,14 @@ enum class Group : unsigned char {
     redundant_speed_row,  ///< in speeds,
     redundant_position,   ///< f(q, t) or 0,
     redundant_velocity,   ///< and A q' + b
-    multiplier,           ///< λ
-    projected,            ///< the state after one step of Newton's method to the constraints
-    pivot,                ///< the divisors of this step
-    speed,                ///< the scene's generalized speeds, as functions of the state or of the rates
+    tied_row,    ///< A in u' of those of them that are tied to constraints above (Mechanism::Constraint::tie), s
+                 ///< for each,
+    tied_gamma,  ///< γ of these,
+    tie,         ///< and what stands beside A in K (motion_system.hpp), lower triangle
+    multiplier,  ///< λ
+    projected,   ///< the state after one step of Newton's method to the constraints
+    pivot,       ///< the divisors of this step
+    speed,       ///< the scene's generalized speeds, as functions of the state or of the rates
     speed_rate,
     form_row,  ///< the coefficients of a speed as a linear form in q', n for each
     kinetic,

@@ -5,6 +5,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "program/motion_system.hpp"
 #include "program/series_building.hpp"
 
 namespace alembert {
@@ -28,17 +29,9 @@ Recurrences SeriesBuilding::direct() {
 }
 
 Recurrences SeriesBuilding::implicit() {
-    const std::vector<int> mass = p().nodes_of(Group::mass), forcing = p().nodes_of(Group::forcing),
-                           gamma = p().nodes_of(Group::gamma);
-    const int s = static_cast<int>(forcing.size()), m = static_cast<int>(gamma.size());
-    std::vector<int> lower = mass, right = forcing;
-    const std::vector<int> rows = p().nodes_of(p().speeds.empty() ? Group::row : Group::speed_row),
-                           kept = p().kept_constraints();
-    for (int k = 0; const int c : kept) {
-        for (int i = 0; i < s; ++i) lower.push_back(rows.at(c * s + i));
-        lower.insert(lower.end(), ++k, p().number(0));
-    }
-    right.insert(right.end(), gamma.begin(), gamma.end());
+    const MotionSystem system = motion_system(p());
+    const std::vector<int>&lower = system.K, &right = system.b, kept = p().kept_constraints();
+    const int s = system.speeds, m = system.size() - s;
     std::vector<int> needed = p().nodes_of(Group::rate);
     needed.insert(needed.end(), lower.begin(), lower.end());
     needed.insert(needed.end(), right.begin(), right.end());

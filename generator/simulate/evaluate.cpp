@@ -2,6 +2,7 @@
 #include "simulate/evaluate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,8 @@ std::vector<double> values_of(const Program& program, const std::vector<double>&
 /// The accelerations at a state, or the reason why there are none.
 std::vector<double> accelerations_at(const Derived& d, const Program& program, const State<double>& state) {
     std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
-    if ((!state.q.empty() && massless_combination(program, state)) ||
+    if ((!state.q.empty() && (massless_combination(program, state) ||
+                              is_rank_rounding(program, state, d.equations.kept(d.mechanism)))) ||
         !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
         throw IntegrationError(no_accelerations_at(d, state), state.t, state.q);
     return result;
@@ -53,7 +55,16 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     need_rates(d);
     const ContactView view(d.mechanism);
     check_gaps(d.scene, d.mechanism, view, state, tolerance::closed_gap);
-    const std::vector<int> closed = contacts_at_rest(view, state, tolerance::closed_gap).closed;
+    const Lasting lasting = contacts_at_rest(view, state, tolerance::closed_gap);
+    const std::vector<int>& closed = lasting.closed;
+    if (lasting.resting.size() > closed.size()) {
+        std::vector<std::string> names;
+        for (const int k : lasting.resting) names.push_back("'" + d.mechanism.unilateral[k].gap.name + "'");
+        d.warn("redundant",
+               say("warning: how the contacts {} share the load is not determined, since some of them "
+                   "would hold it alone; here as few as possible bear it\n",
+                   fmt::join(names, ", ")));
+    }
     if (!closed.empty())
         d = derived_again(d, with_closed(d.mechanism, closed), formalism_for(Need::multipliers).name);
     return closed;
@@ -110,6 +121,18 @@ void warn_of_outputs(Evaluation& e) {
     }
 }
 
+/// Conditions of joints that close loops and follow from others take a load that no motion shows.
+void warn_of_shared_loads(Evaluation& e) {
+    std::vector<std::string> names = e.mechanism.identities;
+    for (const Mechanism::Constraint& c : e.mechanism.redundant)
+        if (c.joint) names.push_back(c.name);
+    if (!names.empty())
+        e.warn("redundant", say("warning: the loads of joints in closed loops are not determined where conditions "
+                                "follow from others ({}): they are those for which the multipliers of the closing "
+                                "joints are the least\n",
+                                fmt::join(names, ", ")));
+}
+
 /// The reactions as outputs, of joints and of bodies that roll.
 void add_reactions(Evaluation& e, const Program& program, const State<double>& state,
                    const std::vector<double>& value) {
@@ -120,7 +143,10 @@ void add_reactions(Evaluation& e, const Program& program, const State<double>& s
     }
     if (!has_reactions(e.mechanism)) return;
     const JointReactions reactions = joint_reactions(e.scene, e.mechanism);
-    if (!e.mechanism.joints.empty()) e.joint_loads = reactions.without_rounding(program, state);
+    if (!e.mechanism.joints.empty()) {
+        e.joint_loads = reactions.without_rounding(program, state);
+        warn_of_shared_loads(e);
+    }
     const std::vector<double> normals = reactions.normals_without_rounding(program, state);
     for (std::size_t k = 0; k < normals.size(); ++k)
         e.normal_reactions.emplace_back(reactions.normals[k], normals[k]);

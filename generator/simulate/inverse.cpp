@@ -55,8 +55,8 @@ Affine affine(const Program& program, State<double> state) {
 }
 
 /// The case in which at most as many accelerations are given as there are degrees of freedom. The loads act along
-/// these coordinates, and the other accelerations follow.
-Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& given, double t,
+/// these coordinates, and the other accelerations follow. Rows of A may follow from others; `rank` of them do not.
+Loads partly_given(const Affine& s, Eigen::Index rank, const std::vector<std::optional<double>>& given, double t,
                    const std::vector<double>& q) {
     const Eigen::Index n = s.M.rows(), m = s.A.rows();
     // The coefficients of (τ or q'' for each coordinate, λ).
@@ -75,7 +75,7 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
     }
     S.topRightCorner(n, m) = -s.A.transpose();
     const LeastNorm solution = least_norm(S, right);
-    if (solution.rank < n + m)
+    if (solution.rank < n + rank)
         throw IntegrationError(say("loads along the coordinates whose accelerations are given do not determine "
                                    "the motion at this pose; "
                                    "give the accelerations of others, or of all"),
@@ -89,7 +89,8 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
 
 /// The case in which all accelerations are known: the loads of least norm that produce them together with the
 /// constraint forces.
-Loads all_given(const Affine& s, const Eigen::VectorXd& a, const std::vector<std::string>& constraints) {
+Loads all_given(const Affine& s, Eigen::Index rank, const Eigen::VectorXd& a,
+                const std::vector<std::string>& constraints) {
     for (Eigen::Index k = 0; k < s.A.rows(); ++k) {
         const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()),
                      off = s.A.row(k).dot(a) - s.gamma[k];
@@ -97,7 +98,7 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const std::vector<std
             throw ModelError(
                 say("the accelerations given break constraint '{}', by {:.3g}; give those of as many "
                     "coordinates as there are degrees of freedom, {}, and the others follow",
-                    constraints[static_cast<std::size_t>(k)], off, s.M.rows() - s.A.rows()));
+                    constraints[static_cast<std::size_t>(k)], off, s.M.rows() - rank));
     }
     const Eigen::VectorXd whole = s.M * a + s.minus_f;
     const Eigen::VectorXd lambda =
@@ -105,13 +106,14 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const std::vector<std
     return {a, s.A.rows() > 0 ? Eigen::VectorXd(whole - s.A.transpose() * lambda) : whole, lambda};
 }
 
-Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given,
+/// `constraints` are those of the rows of A, of which `rank` do not follow from others.
+Loads loads_for(const Affine& s, std::size_t rank, const std::vector<std::optional<double>>& given,
                 const std::vector<std::string>& constraints, const Start& start) {
     const auto n = given.size(), count = static_cast<std::size_t>(std::count_if(
                                      given.begin(), given.end(), [](const auto&a) { return a.has_value(); }));
-    const std::size_t freedom = n - constraints.size();
+    const std::size_t freedom = n - rank;
     if (!constraints.empty() && count > 0 && count <= freedom && count < n)
-        return partly_given(s, given, start.t, start.q);
+        return partly_given(s, static_cast<Eigen::Index>(rank), given, start.t, start.q);
     if (!constraints.empty() && count > 0 && count < n)
         throw ModelError(
             say("the accelerations of {} coordinates are given; expected those of {} or fewer, the "
@@ -122,7 +124,7 @@ Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given
         a = least_norm(s.A, s.gamma).x;  // the accelerations of least norm that the constraints allow
     for (std::size_t j = 0; j < n; ++j)
         if (given[j]) a[static_cast<Eigen::Index>(j)] = *given[j];
-    return all_given(s, a, constraints);
+    return all_given(s, static_cast<Eigen::Index>(rank), a, constraints);
 }
 
 std::vector<std::string> names_of_constraints(const Mechanism& m) {
@@ -150,11 +152,43 @@ Loads loads_in_speeds(const Affine& s, const SpeedsAt& speeds, const std::vector
         own.gamma[k] = s.gamma[constraint] - s.A.row(constraint).dot(speeds.h);
         names.push_back(m.constraints[static_cast<std::size_t>(constraint)].name);
     }
-    const Loads along = loads_for(own, given, names, start);
+    const Loads along = loads_for(own, names.size(), given, names, start);
     Loads result{speeds.H * along.acceleration + speeds.h, speeds.W.transpose() * along.load, {}};
     if (s.A.rows() > 0)
         result.multiplier = least_norm(s.A.transpose(), s.M * result.acceleration + s.minus_f - result.load).x;
     return result;
+}
+
+/// With the constraints that are tied to those that are kept (Mechanism::Constraint::tie), each of which is needed
+/// at some pose. Speeds eliminate those that are kept.
+Mechanism with_tied_ones(Mechanism m) {
+    for (const Mechanism::Constraint& c : m.redundant)
+        if (c.tie && m.speeds.empty()) m.constraints.push_back(c);
+    return m;
+}
+
+/// The multipliers of least norm that give these forces, those of redundant constraints too.
+Eigen::VectorXd least_multipliers(const Mechanism& m, const State<double>& state, const Eigen::VectorXd& force) {
+    Mechanism all = m;
+    all.speeds.clear();
+    all.constraints.insert(all.constraints.end(), m.redundant.begin(), m.redundant.end());
+    const Program program = lower_constraints(all);
+    const std::vector<double> value = interpret(program, state);
+    const std::vector<int> rows = program.nodes_of(Group::row);
+    const Eigen::Index n = force.size();
+    Eigen::MatrixXd across(n, static_cast<Eigen::Index>(all.constraints.size()));
+    for (Eigen::Index k = 0; k < across.cols(); ++k)
+        for (Eigen::Index i = 0; i < n; ++i)
+            across(i, k) = value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k * n + i)])];
+    return Orthogonal(across, tolerance::dependent_row).solve(force);
+}
+
+void add_multipliers(InverseLoads& result, const Eigen::VectorXd& multipliers) {
+    Eigen::Index next = 0;
+    for (const auto* list : {&result.mechanism.constraints, &result.mechanism.redundant})
+        for (const Mechanism::Constraint& c : *list)
+            if (next < multipliers.size())
+                result.multipliers.emplace_back(c.multiplier.get_name(), multipliers[next++]);
 }
 
 void add_speeds(InverseLoads& result, const SpeedsAt& speeds, const Loads& loads, const Mechanism& m) {
@@ -179,7 +213,8 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     const std::vector<std::optional<double>> given = given_accelerations(options.at, m);
     Start start = start_of(m, at);
     assemble(start, m, lower_constraints(m), at);
-    const Affine s = affine(lower_inverse(m), start.state());
+    const Mechanism whole = with_tied_ones(m);
+    const Affine s = affine(lower_inverse(whole), start.state());
     std::optional<SpeedsAt> speeds;
     if (!m.speeds.empty()) speeds = speeds_at(m, start.state(), s.A, s.gamma);
     if (in_speeds && is_any_given(given))
@@ -190,7 +225,7 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
                                    "accelerations of coordinates"),
                                start.t, start.q);
     const Loads loads = in_speeds ? loads_in_speeds(s, *speeds, given_speeds, m, start)
-                                  : loads_for(s, given, names_of_constraints(m), start);
+                                  : loads_for(s, m.constraints.size(), given, names_of_constraints(whole), start);
     if (!loads.load.allFinite() || !loads.acceleration.allFinite())
         throw IntegrationError(say("there are no finite loads at t = {:.6g}", start.t), start.t, start.q);
     result.time = start.t;
@@ -199,9 +234,9 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     result.rates = start.qdot;
     result.accelerations.assign(loads.acceleration.begin(), loads.acceleration.end());
     result.loads.assign(loads.load.begin(), loads.load.end());
-    for (std::size_t k = 0; k < m.constraints.size(); ++k)
-        result.multipliers.emplace_back(m.constraints[k].multiplier.get_name(),
-                                        loads.multiplier[static_cast<Eigen::Index>(k)]);
+    add_multipliers(result, m.redundant.empty()
+                                ? loads.multiplier
+                                : least_multipliers(m, start.state(), s.A.transpose() * loads.multiplier));
     result.given_in_speeds = in_speeds;
     if (speeds) add_speeds(result, *speeds, loads, m);
     return result;

@@ -13,6 +13,7 @@
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "analysis/audit/integral.hpp"
+#include "analysis/audit/tied_rows.hpp"
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/branch.hpp"
 #include "analysis/state/contradiction.hpp"
@@ -193,6 +194,15 @@ private:
         result_.degrees_of_freedom = n_ - result_.rank;
     }
 
+    /// Whether the constraint, which is redundant, is tied to those that are kept (tied_rows.hpp).
+    bool is_tied(int k) {
+        if (!kept_) kept_ = with_tied_rows(without_constraints(m_, redundant_));
+        return kept_
+            ->redundant[static_cast<std::size_t>(std::find(redundant_.begin(), redundant_.end(), k) -
+                                                 redundant_.begin())]
+            .tie.has_value();
+    }
+
     void sources_of_redundancy() {
         for (const int k : redundant_) {
             if (std::find(joint_.contradictory.begin(), joint_.contradictory.end(), k) !=
@@ -201,7 +211,11 @@ private:
             const std::vector<int> from = follows_from(m_, k, redundant_, states_);
             if (!from.empty())
                 result_.constraints[k].notes.push_back(
-                    say("follows from {}; the equations of motion leave it out", quoted(m_, from)));
+                    is_tied(k)
+                        ? say("follows from {} at most poses; the solution for the motion takes all of them, as "
+                              "each is needed at some pose",
+                              quoted(m_, from))
+                        : say("follows from {}; the equations of motion leave it out", quoted(m_, from)));
         }
     }
 
@@ -348,7 +362,8 @@ private:
         std::vector<int> kept;
         for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k)
             if (!result_.constraints[k].redundant) kept.push_back(k);
-        result_.singular_poses = singular_poses(without_constraints(m_, redundant_), result_.start, states_);
+        const Mechanism independent = kept_ ? *kept_ : with_tied_rows(without_constraints(m_, redundant_));
+        result_.singular_poses = singular_poses(independent, result_.start, states_);
         for (SingularPose& pose : result_.singular_poses)
             for (int& k : pose.among) k = kept[k];
     }
@@ -409,6 +424,7 @@ private:
     Start settled_start_;
     std::vector<State<double>> states_;
     std::vector<int> redundant_;
+    std::optional<Mechanism> kept_;  ///< without those that are redundant
     Integrability joint_;
     Audit result_;
 };

@@ -33,6 +33,8 @@ public:
         }
         std::vector<GiNaC::ex> all = rows;
         all.insert(all.end(), positions.begin(), positions.end());
+        for (const Mechanism::Constraint& c : m.redundant)
+            if (c.tie) all.insert(all.end(), c.row.begin(), c.row.end());
         for (int i = 0; i < m.size(); ++i)
             if (std::any_of(all.begin(), all.end(), [&](const GiNaC::ex& e) { return m.z->depends(e, {m.q[i]}); }))
                 moving_.push_back(i);
@@ -121,6 +123,18 @@ private:
             for (Eigen::Index i = 0; i < n; ++i) A_(k, i) = value[nodes_[k * n + i]] / unit;
             f_[k] = value[nodes_[m * n + k]] / unit;
         }
+        const Eigen::Index before = m * (n + 1);
+        tied_.resize((static_cast<Eigen::Index>(nodes_.size()) - before) / n, n);
+        for (Eigen::Index k = 0; k < tied_.rows(); ++k)
+            for (Eigen::Index i = 0; i < n; ++i) tied_(k, i) = value[nodes_[before + k * n + i]];
+    }
+
+    /// The rank of A with the rows that are tied to it.
+    int whole_rank() const {
+        Eigen::MatrixXd whole(A_.rows() + tied_.rows(), A_.cols());
+        whole << A_, tied_ / std::max(tied_.norm(), 1e-300);
+        const SingularValues svd = singular_values(whole);
+        return static_cast<int>((svd.values.array() > tolerance::dependent_row).count());
     }
 
     /// Computes the derivatives of A at q.
@@ -144,7 +158,7 @@ private:
         const SingularValues svd = singular_values(A_);
         SingularPose pose{.q = q, .rank = 0, .among = {}};
         for (const double sigma : svd.values) pose.rank += sigma > tolerance::dependent_row;
-        if (pose.rank == A_.rows()) return std::nullopt;
+        if (pose.rank == A_.rows() || (tied_.rows() > 0 && whole_rank() >= A_.rows())) return std::nullopt;
         const Eigen::MatrixXd null = svd.left.rightCols(A_.rows() - pose.rank);
         for (Eigen::Index k = 0; k < A_.rows(); ++k)
             if (null.row(k).norm() > 1e-6) pose.among.push_back(static_cast<int>(k));
@@ -241,7 +255,7 @@ private:
     bool searchable_ = true;
     std::vector<double> slope_;
     Eigen::VectorXd usual_, f_;
-    Eigen::MatrixXd A_;
+    Eigen::MatrixXd A_, tied_;  ///< and the rows of redundant constraints that are tied to those of A
 };
 
 }  // namespace

@@ -24,8 +24,9 @@ struct SingularPose {
     bool given = false;      ///< whether this is the given state itself
 };
 
-/// `mechanism` must have independent constraints only, and `states` must obey them (they determine the usual size
-/// of a row). Returns at most `most` poses, the nearest to `state` first.
+/// `mechanism` must have independent constraints only; a pose at which redundant ones that are tied to them
+/// (Mechanism::Constraint::tie) make up for the rank is none. `states` must obey them (they determine the usual
+/// size of a row). Returns at most `most` poses, the nearest to `state` first.
 std::vector<SingularPose> singular_poses(const Mechanism& mechanism, const State<double>& state,
                                          const std::vector<State<double>>& states, std::size_t most = 4);
 

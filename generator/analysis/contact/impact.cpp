@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "analysis/contact/impact_algebra.hpp"
 #include "analysis/state/assemble.hpp"
@@ -74,6 +75,7 @@ public:
         if (!result.numbers)
             throw IntegrationError(say("there are no rates after the impact: {}", result.numbers.failure),
                                    result.start.t, result.start.q);
+        take_least(result.numbers.bilateral, A);
         result.kinetic_before = before.dot(M * before) / 2;
         result.kinetic_after = result.numbers.after.dot(M * result.numbers.after) / 2;
         result.floors = -b.dot(result.numbers.bilateral) - c.dot(result.numbers.contact);
@@ -84,6 +86,12 @@ public:
     }
 
 private:
+    /// Where rows follow from others, the impulses of least norm that change the rates in the same way.
+    static void take_least(Eigen::VectorXd& impulses, const Eigen::MatrixXd& A) {
+        const Orthogonal across(A.transpose(), tolerance::dependent_row);
+        if (across.rank() < A.rows()) impulses = across.solve(A.transpose() * impulses);
+    }
+
     Eigen::Index rows(Group group) const { return static_cast<Eigen::Index>(program_.nodes_of(group).size()); }
     double wanted(Eigen::Index i) const { return value_[nodes_[i]]; }
     /// The index of the first value of a unilateral constraint; its values are gap, drift, restitution, row.

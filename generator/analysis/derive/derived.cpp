@@ -7,6 +7,7 @@
 
 #include "alembert/base/process_time.hpp"
 #include "analysis/audit/audit.hpp"
+#include "analysis/audit/tied_rows.hpp"
 #include "analysis/derive/start_check.hpp"
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/diagnose.hpp"
@@ -119,7 +120,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
     for (const int k : redundant) d.warn(warning_of_redundancy(d, d.mechanism.constraints[k]));
-    d.mechanism = without_constraints(std::move(d.mechanism), redundant);
+    d.mechanism = with_tied_rows(without_constraints(std::move(d.mechanism), redundant));
     refuse_contradiction(d.mechanism);
     if (options.reactions) d.reaction_outputs = add_reactions(d.mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(d.mechanism)) fail(d.scene, {*mistake});

@@ -242,8 +242,11 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, const LeftOut& left_out, bool rates_must_obey) {
     std::vector<std::string> moved;
+    const std::optional<LeftOut::Whole>& whole = left_out.whole();
     if (!mechanism.constraints.empty() || !start.speeds.empty())
-        moved = Assembly(start, mechanism, program, held).go(rates_must_obey);
+        moved = (whole ? Assembly(start, whole->mechanism, whole->program, held)
+                       : Assembly(start, mechanism, program, held))
+                    .go(rates_must_obey);
     left_out.check(start);
     return moved;
 }

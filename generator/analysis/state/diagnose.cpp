@@ -8,6 +8,7 @@
 
 #include "alembert/base/dense.hpp"
 #include "base/language/say.hpp"
+#include "program/rounding.hpp"
 
 namespace alembert {
 
@@ -84,31 +85,60 @@ std::optional<std::string> massless_combination(const Program& program, const St
     return text;
 }
 
+namespace {
+
+/// The rows of the constraints with a multiplier, of which only the first `rank` are independent where none is
+/// lost.
+struct RowsAt {
+    Eigen::MatrixXd A;  ///< in units of the largest row, with 0 for what is only rounding, like sin π
+    std::vector<std::string> names;
+    Eigen::Index rank;
+
+    RowsAt(const Program& program, const State<double>& state, const std::vector<int>& kept)
+        : rank(static_cast<Eigen::Index>(kept.size())) {
+        const std::vector<int> rows = program.nodes_of(Group::row), tied = program.nodes_of(Group::tied_row);
+        const auto n = static_cast<Eigen::Index>(program.coordinates.size());
+        if (kept.empty() || n == 0) return;
+        const std::vector<double> value = interpret(program, state), rounded = rounding_errors(program, state);
+        A.resize(rank + static_cast<Eigen::Index>(tied.size()) / n, n);
+        for (Eigen::Index k = 0; k < A.rows(); ++k)
+            for (Eigen::Index i = 0; i < n; ++i) {
+                const int node = k < rank ? rows[kept[k] * n + i] : tied[(k - rank) * n + i];
+                A(k, i) = std::abs(value[node]) <= rounded[node] ? 0 : value[node];
+            }
+        if (const double largest = A.rowwise().norm().maxCoeff(); largest > 0) A /= largest;
+        std::vector<std::string> constraints, others;
+        for (const Root& root : program.roots) {
+            if (root.group == Group::position) constraints.push_back(root.name);
+            if (root.group == Group::tied_gamma) others.push_back(root.name);
+        }
+        for (const int k : kept) names.push_back(constraints[k]);
+        names.insert(names.end(), others.begin(), others.end());
+    }
+};
+
+}  // namespace
+
+bool is_rank_rounding(const Program& program, const State<double>& state, const std::vector<int>& kept) {
+    constexpr double rounding = 1e-12;
+    const RowsAt rows(program, state, kept);
+    if (rows.A.size() == 0 || !rows.A.allFinite()) return false;
+    return (singular_values(rows.A).values.array() > rounding).count() < rows.rank;
+}
+
 std::optional<std::string> lost_rank(const Program& program, const State<double>& state,
                                      const std::vector<int>& kept) {
-    const std::vector<int> rows = program.nodes_of(Group::row);
-    const auto n = static_cast<Eigen::Index>(program.coordinates.size()),
-               m = static_cast<Eigen::Index>(kept.size());
-    if (kept.empty() || n == 0) return std::nullopt;
-    const std::vector<double> value = interpret(program, state);
-    Eigen::MatrixXd A(m, n);
-    for (Eigen::Index k = 0; k < m; ++k)
-        for (Eigen::Index i = 0; i < n; ++i) A(k, i) = value[rows[kept[k] * n + i]];
-    const double largest = A.rowwise().norm().maxCoeff();
-    if (!A.allFinite()) return std::nullopt;
-    if (largest > 0) A /= largest;
-    const SingularValues decomposed = singular_values(A);
+    const RowsAt rows(program, state, kept);
+    if (rows.A.size() == 0 || !rows.A.allFinite()) return std::nullopt;
+    const SingularValues decomposed = singular_values(rows.A);
     const Eigen::Index left = (decomposed.values.array() > 1e-7).count();
-    if (left == m) return std::nullopt;
-    const Eigen::VectorXd among = decomposed.left.rightCols(m - left).cwiseAbs().rowwise().sum();
-    std::vector<std::string> constraints;
-    for (const Root& root : program.roots)
-        if (root.group == Group::position) constraints.push_back(root.name);
+    if (left >= rows.rank) return std::nullopt;
+    const Eigen::VectorXd among = decomposed.left.rightCols(rows.A.rows() - left).cwiseAbs().rowwise().sum();
     std::string names;
     int count = 0;
-    for (Eigen::Index k = 0; k < m; ++k) {
+    for (Eigen::Index k = 0; k < rows.A.rows(); ++k) {
         if (among[k] < 1e-6) continue;
-        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", constraints[kept[k]]);
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", rows.names[static_cast<std::size_t>(k)]);
         ++count;
     }
     return say(
@@ -116,7 +146,7 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
         "(audit lists such poses, and simulate goes through most of them)",
         count == 1 ? say("constraint {} has no row left", names)
                    : say("the rows of constraints {} become dependent", names),
-        m, left);
+        rows.rank, left);
 }
 
 std::optional<NotFinite> not_finite(const Program& program, const State<double>& state, Group group) {

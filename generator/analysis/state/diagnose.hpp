@@ -23,9 +23,13 @@ std::optional<std::string> massless_combination(const Program& program, const St
 /// Constraints whose rows are dependent at this state, although the constraints `kept` (by index) are independent
 /// elsewhere, as for a linkage that lies flat. "constraint 'x' has no row left …" or "the rows of constraints 'x',
 /// 'y' become dependent …". Rows are measured relative to the largest; a singular value of A below 1e-7 counts as
-/// zero.
+/// zero. Rows that are tied to these (program/tie.hpp) count with them.
 std::optional<std::string> lost_rank(const Program& program, const State<double>& state,
                                      const std::vector<int>& kept);
+
+/// Whether A has lost rank but for rounding (a singular value below 1e-12, as of sin π): accelerations may then be
+/// finite, and say nothing.
+bool is_rank_rounding(const Program& program, const State<double>& state, const std::vector<int>& kept);
 
 struct NotFinite {
     std::string text;          ///< what it is, and the part from which it comes: "a division by zero in spring 1"

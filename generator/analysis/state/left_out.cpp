@@ -48,6 +48,13 @@ double size_of(const std::vector<double>& list) {
 
 LeftOut::LeftOut(const Mechanism& m) {
     if (m.redundant.empty()) return;
+    Mechanism whole = m;
+    whole.redundant.clear();
+    for (const Mechanism::Constraint& c : m.redundant) (c.tie ? whole.constraints : whole.redundant).push_back(c);
+    if (whole.constraints.size() > m.constraints.size()) {
+        Program program = lower_constraints(whole);
+        whole_.emplace(Whole{.mechanism = std::move(whole), .program = std::move(program)});
+    }
     Mechanism kept = m;
     kept.redundant.clear();
     kept.speeds.clear();

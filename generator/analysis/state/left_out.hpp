@@ -30,6 +30,15 @@ public:
     /// ones there. Nothing is checked if no state obeys the kept ones.
     void check(const Start& start) const;
 
+    /// A mechanism and lower_constraints of it.
+    struct Whole {
+        Mechanism mechanism;
+        Program program;
+    };
+    /// With the constraints that are tied to those that are kept (Mechanism::Constraint::tie), each of which is
+    /// needed at some pose; nothing if there are none.
+    const std::optional<Whole>& whole() const { return whole_; }
+
 private:
     struct Both {
         Mechanism kept;         ///< with the constraints that are not left out; all coordinates are guesses
@@ -46,6 +55,7 @@ private:
     [[noreturn]] void refuse(int constraint, double misfit) const;
 
     std::optional<Both> both_;  ///< nothing if nothing was left out
+    std::optional<Whole> whole_;
 };
 
 /// For each independent parameter, whether what was left out ceases to follow when this parameter alone changes

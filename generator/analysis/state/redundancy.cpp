@@ -96,10 +96,6 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism, double least)
     return result;
 }
 
-namespace {
-
-/// Do the factors with which the rows of this rolling condition depend on the rows before them change with the
-/// pose?
 bool factors_change(const Mechanism& mechanism, int row, const std::vector<int>& redundant,
                     const std::vector<State<double>>& places) {
     const Program program = lower_constraints(mechanism);
@@ -125,8 +121,6 @@ bool factors_change(const Mechanism& mechanism, int row, const std::vector<int>&
     }
     return false;
 }
-
-}  // namespace
 
 Mechanism along_axes(Mechanism m, int rolling) {
     Mechanism::Rolling& rolls = m.rollings[static_cast<std::size_t>(rolling)];

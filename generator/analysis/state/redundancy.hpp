@@ -35,6 +35,11 @@ Mechanism along_axes(Mechanism mechanism, int rolling);
 std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
                               const std::vector<State<double>>& states);
 
+/// Whether the factors with which the row of constraint k depends on those that are not redundant change with the
+/// pose. `places` obey the constraints.
+bool factors_change(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
+                    const std::vector<State<double>>& places);
+
 /// The mechanism without these constraints; their multipliers are no unknowns of its equations.
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);
 

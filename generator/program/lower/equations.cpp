@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include "alembert/base/dense.hpp"
 #include "base/language/say.hpp"
@@ -21,6 +22,7 @@
 #include "program/lower/normal_forces.hpp"
 #include "program/lower/project.hpp"
 #include "program/solve.hpp"
+#include "program/tie.hpp"
 
 namespace alembert {
 
@@ -89,15 +91,22 @@ void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, c
 }
 
 /// For redundant constraints, takes the multipliers of least norm that give the same forces, Σ_all rowᵀ λ = Σ_kept
-/// rowᵀ λ'. With B = A_all A_keptᵀ they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
-void share_out(Lowering& lowering, Program& program, const Mechanism& m, const ex& power) {
+/// rowᵀ λ'. With B = A_all A_keptᵀ they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'. Those that are tied in K are the
+/// least already.
+void share_out(Lowering& lowering, Program& program, const Mechanism& m, const ex& power, bool are_tied) {
+    for (const Mechanism::Constraint& c : m.redundant)
+        if (c.tie && !are_tied) lowering.define(c.multiplier, program.number(0));
     lowering.lower_definitions({power});
     // The work of moving constraints is expressed by the multipliers of the constraints that are kept.
     lowering(power);
     std::vector<const Mechanism::Constraint*> all;
-    for (const auto* list : {&m.constraints, &m.redundant})
-        for (const Mechanism::Constraint& c : *list) all.push_back(&c);
-    const std::size_t kept = m.constraints.size();
+    std::size_t kept = 0;
+    for (const auto* list : {&m.constraints, &m.redundant}) {
+        for (const Mechanism::Constraint& c : *list)
+            if (!(are_tied && c.tie)) all.push_back(&c);
+        if (list == &m.constraints) kept = all.size();
+    }
+    if (all.size() == kept) return;
     std::vector<ex> wanted;
     for (const auto* c : all) wanted.insert(wanted.end(), c->row.begin(), c->row.end());
     lowering.lower_definitions(wanted);
@@ -115,7 +124,7 @@ void share_out(Lowering& lowering, Program& program, const Mechanism& m, const e
     for (std::size_t k = 0; k < kept; ++k)
         for (const auto& row : rows) B[k].push_back(dot(row, rows[k]));
     std::vector<int> square, right, lambda;
-    for (std::size_t k = 0; k < kept; ++k) lambda.push_back(lowering(m.constraints[k].multiplier));
+    for (std::size_t k = 0; k < kept; ++k) lambda.push_back(lowering(all[k]->multiplier));
     for (std::size_t k = 0; k < kept; ++k) {
         for (std::size_t j = 0; j <= k; ++j) square.push_back(dot(B[k], B[j]));
         right.push_back(dot({B[k].begin(), B[k].begin() + static_cast<std::ptrdiff_t>(kept)}, lambda));
@@ -149,6 +158,8 @@ public:
         program_.formulation = e.formalism;
         program_.is_textbook = options.is_textbook;
         for (std::size_t k = 0; k < kept_.size(); ++k) row_of_[kept_[k]] = static_cast<int>(k);
+        for (const Mechanism::Constraint& c : m.redundant)
+            if (c.tie && has_matrix_ && !has_speeds_) tied_.push_back(&c);
     }
 
     Program run() {
@@ -175,6 +186,7 @@ public:
         std::vector<int> right = forcing_nodes(norms, weights, by_tree, acting);
         program_.set_sources({0});
         add_constraints(K, right);
+        add_ties(K, right);
         if (n_ > 0 && !has_matrix_ && !by_tree.acceleration)
             throw ModelError(
                 say("the rates of the joints do not determine those of the coordinates; take the formalism "
@@ -381,6 +393,50 @@ private:
         }
     }
 
+    /// Constraints that follow from others with factors that change are unknowns of K too (tie.hpp).
+    void add_ties(std::vector<int>& K, std::vector<int>& right) {
+        if (tied_.empty()) return;
+        std::vector<ex> wanted;
+        for (const Mechanism::Constraint* c : tied_) {
+            wanted.insert(wanted.end(), c->row.begin(), c->row.end());
+            wanted.push_back(c->acceleration);
+        }
+        lowering_.lower_definitions(wanted);
+        const std::size_t kept = kept_.size(), all = kept + tied_.size();
+        std::map<int, std::vector<std::size_t>> groups;  // of rows, those of K below M being counted
+        std::vector<std::vector<int>> rows(all);
+        for (std::size_t k = 0; k < all; ++k) {
+            const Mechanism::Constraint& c = k < kept ? m_.constraints[kept_[k]] : *tied_[k - kept];
+            for (int i = 0; i < n_; ++i) rows[k].push_back(lowering_(k < kept ? e_.A[k][i] : c.row[i]));
+            if (c.tie) groups[*c.tie].push_back(k);
+            if (k < kept) continue;
+            K.insert(K.end(), rows[k].begin(), rows[k].end());
+            K.insert(K.end(), k + 1, program_.number(0));
+            right.push_back(lowering_(c.acceleration));
+            for (const int entry : rows[k]) program_.roots.push_back({Group::tied_row, c.name, entry});
+            program_.roots.push_back({Group::tied_gamma, c.name, right.back()});
+        }
+        const auto entry = [&](std::size_t k, std::size_t j) -> int& {
+            const std::size_t row = static_cast<std::size_t>(n_) + k;
+            return K[row * (row + 1) / 2 + static_cast<std::size_t>(n_) + j];
+        };
+        std::vector<int> inertia;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) inertia.push_back(K[i * (i + 1) / 2 + i]);
+        for (const auto& [tie, group] : groups) {
+            std::vector<std::vector<int>> own;
+            for (const std::size_t k : group) own.push_back(rows[k]);
+            const auto extra = std::count_if(group.begin(), group.end(), [&](std::size_t k) { return k >= kept; });
+            const std::vector<int> E = tie_of_rows(
+                program_, own, inertia, static_cast<int>(static_cast<std::ptrdiff_t>(group.size()) - extra));
+            for (std::size_t a = 0, at = 0; a < group.size(); ++a)
+                for (std::size_t b = 0; b <= a; ++b)
+                    entry(group[a], group[b]) = program_.product(-1, {{E[at++], 1}});
+        }
+        for (std::size_t k = 0; k < all; ++k)
+            for (std::size_t j = 0; j <= k; ++j)
+                program_.roots.push_back({Group::tie, fmt::format("E{}_{}", k, j), entry(k, j)});
+    }
+
     /// The constraints that follow from the others have multipliers too, so users get their rows.
     void add_redundant() {
         std::vector<ex> wanted;
@@ -432,9 +488,11 @@ private:
             program_.roots.push_back({Group::acceleration, fmt::format("a{}", i), solution[i]});
         for (std::size_t k = 0; k < kept_.size(); ++k)
             lowering_.define(e_.lambda[k], program_.sum(0, {{-1, solution[n_ + k]}}));
-        if (!m_.constraints.empty()) add_projection(program_, m_, e_, K, options_.fold, witness);
+        for (std::size_t k = 0; k < tied_.size(); ++k)
+            lowering_.define(tied_[k]->multiplier, program_.sum(0, {{-1, solution[n_ + kept_.size() + k]}}));
+        if (!m_.constraints.empty()) add_projection(program_, m_, e_, {K, tied_, witness}, options_.fold);
         if (!e_.eliminated.empty()) define_eliminated(solution);
-        if (!m_.redundant.empty()) share_out(lowering_, program_, m_, energy_.power);
+        if (!m_.redundant.empty()) share_out(lowering_, program_, m_, energy_.power, !tied_.empty());
         for (const auto* list : {&m_.constraints, &m_.redundant})
             for (const Mechanism::Constraint& constraint : *list)
                 program_.roots.push_back(
@@ -516,6 +574,7 @@ private:
     const bool has_speeds_, has_matrix_, is_recursive_;
     const std::vector<int> kept_;
     std::vector<int> row_of_;  ///< for each constraint its row in A, −1 if it is eliminated
+    std::vector<const Mechanism::Constraint*> tied_;  ///< of Mechanism::redundant, those that are unknowns of K
     Program program_;
     Lowering lowering_, acting_alone_;
 };

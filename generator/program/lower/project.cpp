@@ -59,10 +59,28 @@ std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const st
     return nodes;
 }
 
+/// The pivots of the constraints that are kept, into which those of the constraints that are tied to them are
+/// multiplied.
+void put_pivots(Program& program, std::vector<int>& pivots, const Mechanism& m, const Equations& equations,
+                const MotionMatrix& matrix) {
+    const auto& [K, tied, witness] = matrix;
+    const std::vector<int> kept = equations.kept(m);
+    const int s = equations.size(), all = s + static_cast<int>(kept.size() + tied.size());
+    const std::vector<int> divided = later_pivots(program, K, all, s, witness);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
+    for (std::size_t k = 0; k < tied.size() && !divided.empty(); ++k) {
+        const int c = *std::find_if(kept.begin(), kept.end(),
+                                    [&](int one) { return m.constraints[one].tie == tied[k]->tie; });
+        pivots[c] = program.product(1, {{pivots[c], 1}, {divided[kept.size() + k], 1}});
+    }
+}
+
 }  // namespace
 
-void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K,
-                    bool fold, const Witness& witness) {
+void add_projection(Program& program, const Mechanism& m, const Equations& equations, const MotionMatrix& matrix,
+                    bool fold) {
+    const auto& [K, tied, witness] = matrix;
     const bool own_speeds = !equations.speeds_are_rates();
     const std::size_t n = m.q.size(), s = equations.u.size();
     const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
@@ -98,16 +116,14 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         for (std::size_t k = 0; k < least->pivots.size(); ++k) pivots[by_rows[k]] = least->pivots[k];
     } else {
         for (const int c : kept) misfit.push_back(position[c]);
+        for (const Mechanism::Constraint* c : tied) misfit.push_back(here(c->position.value_or(0)));
         off = solve(misfit);
         off.resize(s);
         std::vector<std::vector<int>> columns;
         for (std::size_t k = 0; k < s && own_speeds; ++k)
             columns.push_back(lowered(here, m.z->push_forward(equations.h, {{equations.u[k], 1}})));
         if (own_speeds) off = combined(program, columns, off);
-        const std::vector<int> divided =
-            later_pivots(program, K, static_cast<int>(s + kept.size()), static_cast<int>(s), witness);
-        for (std::size_t k = 0; k < kept.size(); ++k)
-            pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
+        put_pivots(program, pivots, m, equations, matrix);
     }
 
     for (std::size_t i = 0; i < n; ++i) {
@@ -126,6 +142,8 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
             for (std::size_t k = 0; k < kept.size(); ++k) rows.push_back(lowered(there, row_of(k)));
             if (const auto least = least_change(program, rows, misfit)) change = least->change;
         } else {
+            for (const Mechanism::Constraint* c : tied)
+                misfit.push_back(dot(program, lowered(there, c->row), rates, there(c->drift)));
             change = solve(misfit);
         }
     }

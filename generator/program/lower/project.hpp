@@ -23,10 +23,16 @@
 
 namespace alembert {
 
-/// The program must have the roots "position". K is the lower triangle of [M Aᵀ; A 0], of size s plus the number
-/// of constraints that are kept; with `fold`, parameters are numbers; `witness` is that of the accelerations.
-/// Nothing is added if a matrix is singular at every state.
+/// The matrix of the accelerations, as a projection needs it.
+struct MotionMatrix {
+    const std::vector<int>& K;  ///< the lower triangle of [M Aᵀ; A 0]: speeds, constraints that are kept, `tied`
+    const std::vector<const Mechanism::Constraint*>& tied;  ///< further unknowns of K (program/tie.hpp)
+    const Witness& witness;
+};
+
+/// The program must have the roots "position". With `fold`, parameters are numbers. Nothing is added if a matrix
+/// is singular at every state.
 void add_projection(Program& program, const Mechanism& mechanism, const Equations& equations,
-                    const std::vector<int>& K, bool fold, const Witness& witness = {});
+                    const MotionMatrix& matrix, bool fold);
 
 }  // namespace alembert
