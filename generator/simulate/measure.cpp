@@ -68,7 +68,7 @@ std::vector<double> Workbench::momenta(double t, const double* state, const Rhs&
 }
 
 System Workbench::able(const Rhs& rhs) {
-    System result{.rhs = rhs, .quick_times = parts_.quick_times};
+    System result{.rhs = rhs, .quick_times = parts_.quick_times, .quick_places = parts_.quick_places};
     if (!parts_.derived.mechanism.constraints.empty()) result.project = projection_.after_steps();
     return result;
 }
