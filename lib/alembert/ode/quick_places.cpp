@@ -18,6 +18,7 @@ constexpr std::size_t most_places = 400;  ///< of a step, for one function
 constexpr double a_part = 0.3;        ///< of what is seen of a function; it is resolved where it changes by less
 constexpr double hardly_any = 1e-20;  ///< below that a function is taken for zero
 constexpr double beside = 3e-5;       ///< of a step: the slope is that between two points at this distance
+constexpr double most_kept = 0.9;     ///< of a step that has passed over something, so that few tries are enough
 const FiveNumbers first_places = {0, 0.23, 0.51, 0.77, 1};  ///< not equidistant, as no motion's period is
 
 /// Whether a function with these values changes little: by less than half of itself, or by a small part of what it
@@ -117,7 +118,7 @@ std::optional<double> PlaceWatch::compare(const StepView& step, const Piece& pie
             double before = 0;
             for (const Sample& other : samples_)
                 if (other.theta < sample.theta) before = std::max(before, other.theta);
-            return before > 0 ? before : sample.theta / 2;
+            return before > 0 ? std::min(before, most_kept) : sample.theta / 2;
         }
         sample.is_compared = true;
     }
