@@ -117,6 +117,32 @@ TEST_CASE("fmu: Andrews' squeezer ends where it should, the nearer the smaller t
     }
 }
 
+// A mass at rest that a pulse starts: v = ∫ F dt, and from the pulse on it moves steadily.
+TEST_CASE("emit: the main program beside a file passes over no pulse in time, and may start from rest") {
+    const double root = std::sqrt(std::acos(-1.0));
+    struct Pulse {
+        const char* force;
+        double rate;
+    };
+    for (const Pulse& pulse : {Pulse{"exp(-((t - 5.2345)/0.001)^2)/0.001", root},
+                               Pulse{"1000*(sign(t - 5.2345) - sign(t - 5.2355))/2", 1},
+                               Pulse{"exp(-((t - 5.2345)/0.05)^2)/0.05", root}}) {
+        CAPTURE(pulse.force);
+        const std::string scene = temporary(
+            "pulse.toml",
+            fmt::format("[inputs]\nF = \"{}\"\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\n"
+                        "position = [\"x\", 0]\n[forces]\nx = \"F\"\n",
+                        pulse.force));
+        for (const char* const language : {"c", "cpp"}) {
+            CAPTURE(language);
+            const std::vector<double> row = end_of_program(scene, language, 10);
+            REQUIRE(row.size() == 3);
+            CHECK(std::abs(row[2] - pulse.rate) < 1e-7);
+            CHECK(std::abs(row[1] - pulse.rate * (10 - 5.2345)) < 1e-3);
+        }
+    }
+}
+
 // A torque of 0.1 N m that the energies do not know, put into the emitted text.
 TEST_CASE("emit: the main program beside a file ends with an error where energy comes from nowhere") {
     const std::string scene = temporary("pendulum.toml", R"toml(gravity = [0, -9.81]

@@ -86,7 +86,12 @@ Trajectory by_cvode(const System& given, const std::vector<double>& initial, con
                 auto& own = *static_cast<CountedSystem*>(s);
                 own.rhs.jacobian(own.rhs.context.get(), t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
                 ++own.evaluations;
-                return is_finite(SUNDenseMatrix_Data(J), own.size() * own.size()) ? 0 : recoverable;
+                // Parts of a derivative may overflow where the function does not change any more, as 1/(1 +
+                // exp(x)).
+                std::replace_if(
+                    SUNDenseMatrix_Data(J), SUNDenseMatrix_Data(J) + own.size() * own.size(),
+                    [](double x) { return !std::isfinite(x); }, 0.0);
+                return 0;
             });
     if (given.project) {
         CVodeSetProjFn(memory, [](sunrealtype t, N_Vector y, N_Vector change, sunrealtype, N_Vector, void* s) {
@@ -99,7 +104,6 @@ Trajectory by_cvode(const System& given, const std::vector<double>& initial, con
         });
         CVodeSetProjErrEst(memory, 0);
     }
-    CVodeSetStopTime(memory, options.start + options.duration);
     if (options.longest_step > 0) CVodeSetMaxStep(memory, options.longest_step);
     const auto count = [memory](int (*of)(void*, long*)) {
         return [memory, of] {
@@ -108,18 +112,28 @@ Trajectory by_cvode(const System& given, const std::vector<double>& initial, con
             return number;
         };
     };
-    const SteppedIntegrator by{
-        .name = "cvode",
-        .step = [&](double& t) { return CVode(memory, options.start + options.duration, w.y, &t, CV_ONE_STEP); },
-        .state = [&] { return N_VGetArrayPointer(w.y); },
-        .at =
-            [&](double t, double* state) {
-                CVodeGetDky(memory, t, 0, w.between);
-                std::copy_n(N_VGetArrayPointer(w.between), system.size(), state);
-            },
-        .steps = count(CVodeGetNumSteps),
-        .rejected = count(CVodeGetNumErrTestFails),
-        .meaning = [](int flag) { return flag_name(CVodeGetReturnFlagName(flag)); }};
+    const SteppedIntegrator by{.name = "cvode",
+                               .step =
+                                   [&](double& t, double latest) {
+                                       CVodeSetStopTime(memory, latest);
+                                       return CVode(memory, latest, w.y, &t, CV_ONE_STEP);
+                                   },
+                               .restart =
+                                   [&](double t) {
+                                       CVodeGetDky(memory, t, 0, w.between);
+                                       std::copy_n(N_VGetArrayPointer(w.between), system.size(),
+                                                   N_VGetArrayPointer(w.y));
+                                       return CVodeReInit(memory, t, w.y);
+                                   },
+                               .state = [&] { return N_VGetArrayPointer(w.y); },
+                               .at =
+                                   [&](double t, double* state) {
+                                       CVodeGetDky(memory, t, 0, w.between);
+                                       std::copy_n(N_VGetArrayPointer(w.between), system.size(), state);
+                                   },
+                               .steps = count(CVodeGetNumSteps),
+                               .rejected = count(CVodeGetNumErrTestFails),
+                               .meaning = [](int flag) { return flag_name(CVodeGetReturnFlagName(flag)); }};
     Trajectory motion = CollectedMotion(system, initial, by, events).go();
     CVodeFree(&memory);
     return motion;
@@ -282,7 +296,6 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
         return static_cast<Implicit*>(s)->jacobian(t, c, N_VGetArrayPointer(at), N_VGetArrayPointer(with),
                                                    N_VGetArrayPointer(value), SUNDenseMatrix_Data(J));
     });
-    IDASetStopTime(memory, options.start + options.duration);
     if (options.longest_step > 0) IDASetMaxStep(memory, options.longest_step);
     const auto count = [memory](int (*of)(void*, long*)) {
         return [memory, of] {
@@ -294,15 +307,23 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
     f.here = initial;
     const SteppedIntegrator by{.name = "ida",
                                .step =
-                                   [&](double& t) {
-                                       const int flag = IDASolve(memory, options.start + options.duration, &t, w.y,
-                                                                 w.slope, IDA_ONE_STEP);
+                                   [&](double& t, double latest) {
+                                       IDASetStopTime(memory, latest);
+                                       const int flag = IDASolve(memory, latest, &t, w.y, w.slope, IDA_ONE_STEP);
                                        if (flag < 0) return flag;
                                        std::copy_n(N_VGetArrayPointer(w.y), f.states(), f.here.begin());
                                        if (given.project)
                                            // Projects the state that is reported; IDA goes on from its own.
                                            given.project(t, f.here.data());
                                        return flag;
+                                   },
+                               .restart =
+                                   [&](double t) {
+                                       IDAGetDky(memory, t, 1, w.between);
+                                       std::copy_n(N_VGetArrayPointer(w.between), f.size(), slope);
+                                       IDAGetDky(memory, t, 0, w.between);
+                                       std::copy_n(N_VGetArrayPointer(w.between), f.size(), y);
+                                       return IDAReInit(memory, t, w.y, w.slope);
                                    },
                                .state = [&] { return f.here.data(); },
                                .at =

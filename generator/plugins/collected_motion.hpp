@@ -12,11 +12,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "alembert/ode/event_watch.hpp"
 #include "alembert/ode/integrate.hpp"
+#include "alembert/ode/missed_feature_check.hpp"
 #include "alembert/ode/recorder.hpp"
 
 namespace alembert {
@@ -50,7 +53,9 @@ struct CountedSystem {
 /// One running integrator: a step, and states within it.
 struct SteppedIntegrator {
     std::string name;
-    std::function<int(double& t)> step;  ///< negative values are error flags of SUNDIALS
+    /// From t on, to `latest` at the most; negative values are error flags of SUNDIALS.
+    std::function<int(double& t, double latest)> step;
+    std::function<int(double t)> restart;  ///< from a time in the last step
     std::function<const double*()> state;
     std::function<void(double t, double* state)> at;
     std::function<long()> steps, rejected;
@@ -66,6 +71,8 @@ public:
           by_(by),
           events_(events),
           watch_(events, system.rhs),
+          places_(system.given.quick_places, system.rhs, terms_left_out * system.options.tolerance),
+          end_(system.options.start + system.options.duration),
           grid_(grid_of(system.options, system.piece)),
           interval_(sample_interval(system.options)),
           next_(std::lround(std::floor((system.options.start - grid_) / interval_ + 1e-9)) + 1),
@@ -81,23 +88,25 @@ public:
     }
 
     Trajectory go() && {
-        const double end = system_.options.start + system_.options.duration;
         double t = system_.options.start;
-        while (t < end && motion_.ending == Ending::completed) {
+        while (t < end_ && motion_.ending == Ending::completed) {
             double reached = t;
-            const int flag = by_.step(reached);
+            int flag = by_.step(reached, latest_after(t));
+            if (flag >= 0 && places_.watches() && !is_clear(t, reached)) flag = go_back(t);
             if (flag < 0) {
                 fail(t, flag);
                 break;
             }
+            if (clear_end_ > t) continue;
             finish_step(t, reached);
             t = reached;
-            if (t >= end && motion_.ending == Ending::completed) recorder_.row(end, row_.data());
+            if (t >= end_ && motion_.ending == Ending::completed) recorder_.row(end_, row_.data());
         }
-        motion_.statistics = {.steps = by_.steps(),
-                              .rejected = by_.rejected(),
-                              .evaluations = system_.evaluations + watch_.evaluations(),
-                              .work = system_.evaluations + watch_.evaluations(),
+        const long evaluations = system_.evaluations + watch_.evaluations() + places_.evaluations();
+        motion_.statistics = {.steps = steps_ + by_.steps(),
+                              .rejected = rejected_ + by_.rejected(),
+                              .evaluations = evaluations,
+                              .work = evaluations,
                               .seconds = 0,
                               .method = by_.name};
         return std::move(motion_);
@@ -106,12 +115,44 @@ public:
 private:
     bool has_events() const { return !events_.list.empty(); }
 
+    /// The latest end of a step from t.
+    double latest_after(double t) {
+        const double clear = std::exchange(clear_end_, -HUGE_VAL);
+        return std::min({end_, latest_end(system_.given.quick_times, t), clear > t ? clear : end_});
+    }
+
+    /// Whether the step has passed over nothing (quick_places.hpp); otherwise the next try ends at `clear_end_`.
+    bool is_clear(double begin, double end) {
+        std::vector<double> rate(system_.size()), end_rate(rate);
+        const std::vector<double> state(by_.state(), by_.state() + system_.size());
+        system_.rhs(begin, row_.data(), rate.data());
+        system_.rhs(end, state.data(), end_rate.data());
+        system_.evaluations += 2;
+        const double part = places_.clear_part(
+            {.start = begin,
+             .end = end,
+             .end_state = state.data(),
+             .end_rate = end_rate.data(),
+             .start_state = row_.data(),
+             .start_rate = rate.data(),
+             .interpolate = [&](double theta, double* out) { by_.at(begin + theta * (end - begin), out); }});
+        const double shortest = 1024 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(begin));
+        if (part == 1 || end - begin < shortest) return true;
+        clear_end_ = begin + std::max(part * (end - begin), shortest / 2);
+        return false;
+    }
+
+    int go_back(double t) {
+        steps_ += by_.steps() - 1;
+        rejected_ += by_.rejected() + 1;
+        return by_.restart(t);
+    }
+
     /// Adds the rows of the grid before a time, but not the last row of the run.
     void add_rows_before(double time) {
-        const double end = system_.options.start + system_.options.duration;
         for (;; ++next_) {
             const double at = grid_ + static_cast<double>(next_) * interval_;
-            if (!(at < std::min(time, end - 1e-9 * interval_))) return;
+            if (!(at < std::min(time, end_ - 1e-9 * interval_))) return;
             by_.at(at, row_.data());
             if (system_.given.project) system_.given.project(at, row_.data());
             recorder_.row(at, row_.data());
@@ -177,6 +218,9 @@ private:
     const SteppedIntegrator& by_;
     const Events& events_;
     EventWatch watch_;
+    PlaceWatch places_;
+    double end_, clear_end_ = -HUGE_VAL;  ///< of the run; of the next step, if it is later than its start
+    long steps_ = 0, rejected_ = 0;       ///< before the last restart
     double grid_, interval_;
     long next_;  ///< the number of the next row on the grid
     Trajectory motion_;

@@ -3,15 +3,17 @@
 
 #include <cln/float.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
+#include <set>
 
 namespace alembert {
 
 namespace {
 
 using Step = EventInstruction::Op;
-constexpr std::size_t most_event_instructions = 100;
+constexpr std::size_t most_event_instructions = 100, most_place_instructions = 1000;
 
 const std::map<Op, Step> event_functions = {
     {Op::sin, Step::sin},   {Op::cos, Step::cos},   {Op::tan, Step::tan},   {Op::asin, Step::asin},
@@ -72,10 +74,10 @@ bool translate_event(const Program& program, const Node& node, EventInstruction&
     }
 }
 
-std::vector<EventInstruction> event_instructions(const Program& program, int root) {
+std::vector<EventInstruction> event_instructions(const Program& program, int root, std::size_t most) {
     const int roots[] = {root};
     const std::vector<int> needed = program.needed(roots);
-    if (needed.size() > most_event_instructions) return {};
+    if (needed.size() > most) return {};
     std::map<int, int> place;
     std::vector<EventInstruction> result;
     for (const int id : needed) {
@@ -92,11 +94,45 @@ std::vector<EventInstruction> event_instructions(const Program& program, int roo
     return result;
 }
 
+/// Functions that can be flat but for a small region.
+bool may_be_flat(Op op) {
+    return op == Op::exp || op == Op::cosh || op == Op::sinh || op == Op::tanh || op == Op::atan || op == Op::pow;
+}
+
+/// The functions of the state in the right-hand side that may change fast in a small region alone, and the
+/// reciprocals, roots and logarithms of what contains some, as 1/cosh x and 1/(1 + exp(−x)).
+std::vector<int> quick_functions(const Program& program) {
+    constexpr unsigned state = bit(Variable::Kind::coordinate) | bit(Variable::Kind::rate);
+    std::vector<int> result;
+    std::set<int> above;  // nodes that contain such a function
+    const std::vector<int> roots = program.right_hand_side();
+    for (const int id : program.needed(roots)) {
+        const Node& node = program[id];
+        if ((node.depends & state) == 0) continue;
+        const bool contains =
+            std::any_of(node.args.begin(), node.args.end(), [&](int a) { return above.contains(a); });
+        const bool is_quick = may_be_flat(node.op);
+        if (is_quick || contains) above.insert(id);
+        if (is_quick || (contains && (node.is_reciprocal() || node.op == Op::sqrt || node.op == Op::log)))
+            result.push_back(id);
+    }
+    return result;
+}
+
 }  // namespace
+
+std::shared_ptr<const EventCode> quick_places_code(const Program& program) {
+    EventCode code;
+    for (const int root : quick_functions(program))
+        code.events.push_back(event_instructions(program, root, most_place_instructions));
+    if (code.events.empty()) return nullptr;
+    return std::make_shared<const EventCode>(std::move(code));
+}
 
 std::shared_ptr<const EventCode> event_code(const Program& program) {
     EventCode code;
-    for (const int root : program.nodes_of(Group::event)) code.events.push_back(event_instructions(program, root));
+    for (const int root : program.nodes_of(Group::event))
+        code.events.push_back(event_instructions(program, root, most_event_instructions));
     if (code.events.empty()) return nullptr;
     return std::make_shared<const EventCode>(std::move(code));
 }

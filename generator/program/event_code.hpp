@@ -14,4 +14,8 @@ namespace alembert {
 
 std::shared_ptr<const EventCode> event_code(const Program& program);
 
+/// Likewise the functions of the state in the right-hand side that may change fast in a small region alone
+/// (alembert/ode/quick_places.hpp); null if there are none.
+std::shared_ptr<const EventCode> quick_places_code(const Program& program);
+
 }  // namespace alembert

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -231,6 +232,53 @@ int Program::sum(const Rational& constant, std::span<const Term> terms) {
             .op = Op::sum, .number = is_one ? rest : rest / content, .args = args, .coefficients = coefficients}));
 }
 
+namespace {
+
+/// x⁻ⁿ with n > 1.
+bool is_power_of_reciprocal(const Program& program, int id) {
+    const Node& node = program[id];
+    return node.op == Op::product && node.args.size() == 1 && program[node.args[0]].is_reciprocal();
+}
+
+/// cosh x, or a + b exp(x).
+bool overflows(const Program& program, int id) {
+    const Node& node = program[id];
+    return node.op == Op::cosh || (node.op == Op::sum && node.args.size() == 1 && !cln::zerop(node.number) &&
+                                   program[node.args[0]].op == Op::exp);
+}
+
+/// sinh x / cosh x is tanh x, and exp(x)/(a + b exp(x)) is 1/(b + a exp(−x)): so neither is ∞/∞ or 0·∞ where x is
+/// large. Nothing if there is no such quotient.
+std::optional<int> bounded_quotient(Program& program, const Rational& content,
+                                    std::span<const Program::Factor> factors) {
+    for (const auto& [below, power] : factors) {
+        if (power >= 0 || !overflows(program, below)) continue;
+        const Node divisor = program[below];
+        const bool is_cosh = divisor.op == Op::cosh;
+        for (const auto& [above, times] : factors) {
+            const Node& node = program[above];
+            const bool fits =
+                is_cosh ? node.op == Op::sinh && node.args[0] == divisor.args[0] : above == divisor.args[0];
+            if (times <= 0 || !fits) continue;
+            const int both = std::min(times, -power), x = node.args[0];
+            std::vector<Program::Factor> again(factors.begin(), factors.end());
+            again.emplace_back(above, -both);
+            again.emplace_back(below, both);
+            if (is_cosh)
+                again.emplace_back(program.call(Op::tanh, {x}), both);
+            else
+                again.emplace_back(
+                    program.sum(divisor.coefficients[0],
+                                {{divisor.number, program.call(Op::exp, {program.sum(0, {{-1, x}})})}}),
+                    -both);
+            return program.product(content, again);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
 int Program::product(const Rational& coefficient, std::span<const Factor> factors) {
     Rational content = coefficient;
     ShortLists lists;
@@ -240,6 +288,10 @@ int Program::product(const Rational& coefficient, std::span<const Factor> factor
         if (exponent == 0) continue;
         if (nodes_[id].is_scaled()) {
             content = content * cln::expt(nodes_[id].coefficients[0], exponent);
+            id = nodes_[id].args[0];
+        }
+        if (is_power_of_reciprocal(*this, id) && overflows(*this, nodes_[nodes_[id].args[0]].args[0])) {
+            exponent *= nodes_[id].exponents[0];
             id = nodes_[id].args[0];
         }
         if (nodes_[id].is_reciprocal()) {
@@ -263,6 +315,7 @@ int Program::product(const Rational& coefficient, std::span<const Factor> factor
             again.emplace_back(id, -2 * (exponent / 2));
             return product(content, again);
         }
+    if (const std::optional<int> found = bounded_quotient(*this, content, by_node)) return *found;
     ShortList<Factor> kept(lists), constants(lists);
     kept.reserve(by_node.size());
     for (const auto& [id, exponent] : by_node)

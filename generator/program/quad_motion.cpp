@@ -282,6 +282,16 @@ double agreement(const QuadVector& a, const QuadVector& b) {
     return largest;
 }
 
+namespace {
+
+/// Where a step from t ends at the latest.
+Quad latest_end(const std::vector<double>& mesh, Quad t, Quad end) {
+    const auto next = std::upper_bound(mesh.begin(), mesh.end(), static_cast<double>(t));
+    return mesh.end() - next < 2 ? end : std::min(end, Quad(*(next + 1)));
+}
+
+}  // namespace
+
 QuadMotion extrapolate(const QuadRhs& rhs, QuadVector state, Quad start, Quad end, const QuadOptions& options) {
     const int columns = std::clamp(static_cast<int>(std::lround(-std::log10(options.tolerance) / 2)), 4, 14);
     Extrapolation one(rhs, state.size(), columns);
@@ -293,7 +303,8 @@ QuadMotion extrapolate(const QuadRhs& rhs, QuadVector state, Quad start, Quad en
         rhs(t, state.data(), rate.data());
         ++one.evaluations;
         for (double error = HUGE_VAL; error > options.tolerance && one.evaluations <= options.budget;) {
-            const Quad to = t + Quad(1.01) * h < end ? t + h : end;
+            const Quad latest = latest_end(options.mesh, t, end),
+                       to = t + Quad(1.01) * h < latest ? t + h : latest;
             error = one(t, state, rate, to - t, next);
             const double factor =
                 0.9 * std::pow(options.tolerance / std::max(error, 1e-300), 1.0 / (2 * columns - 1));

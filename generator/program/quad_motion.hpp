@@ -36,6 +36,9 @@ struct QuadMotion {
 struct QuadOptions {
     double tolerance = 1e-28;
     long budget = 10'000'000;
+    /// The ends of the steps of another run, ascending: no step of `extrapolate` is longer than two of these. May
+    /// be empty.
+    std::vector<double> mesh = {};
 };
 
 QuadMotion extrapolate(const QuadRhs& rhs, std::vector<Quad> state, Quad start, Quad end,

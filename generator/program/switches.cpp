@@ -33,8 +33,13 @@ private:
     int rebuilt(int id) {
         const Node& node = old_[id];
         const bool bends = node.op == Op::sign || node.op == Op::abs || node.op == Op::min || node.op == Op::max;
-        if (!bends || node.is_constant()) return rewriting_.plain(id);
         Program& made = rewriting_.made();
+        if ((node.op == Op::sqrt || node.op == Op::pow) && may_vanish(node.args[0])) {
+            std::vector<int> args = {made.call(Op::abs, {rewriting_.image(node.args[0])})};
+            for (std::size_t k = 1; k < node.args.size(); ++k) args.push_back(rewriting_.image(node.args[k]));
+            return made.call(node.op, args);
+        }
+        if (!bends || node.is_constant()) return rewriting_.plain(id);
         const Rational half = Rational(1) / 2;
         const int a = rewriting_.image(node.args[0]);
         if (node.op == Op::sign) return side_of(a, id);
@@ -47,6 +52,17 @@ private:
             value = made.sum(0, {{half, value}, {half, b}, {node.op == Op::max ? half : -half, apart}});
         }
         return value;
+    }
+
+    /// Whether a node is zero where a sign in it changes, as max(0, x) is. With a sign that is held, it goes on to
+    /// negative values, of which a root would have none: a step that passes the zero, and is cut short there,
+    /// could not be taken. The root of its size continues it.
+    bool may_vanish(int id) const {
+        const Node& node = old_[id];
+        if (node.is_constant()) return false;
+        if (node.op == Op::abs || node.op == Op::min || node.op == Op::max) return true;
+        return (node.is_scaled() || node.op == Op::product) &&
+               std::any_of(node.args.begin(), node.args.end(), [this](int a) { return may_vanish(a); });
     }
 
     /// ±σ for the sign of `g`; g and c·g have the same σ.

@@ -15,6 +15,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
+#include "program/event_code.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
 #include "program/recurrence.hpp"
@@ -166,6 +167,7 @@ public:
                              .parameters = start_.parameters,
                              .initial = initial,
                              .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
+                             .quick_places = {quick_places_code(program), start_.parameters},
                              .effort = effort_of(program),
                              .slowness = wishes_.tuning ? slowness_here() : Slowness{},
                              .conserved = energy.conserved});

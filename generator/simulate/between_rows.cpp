@@ -105,7 +105,11 @@ void BetweenRows::state_at(double t, std::span<double> state) const {
     options.sample = options.duration;
     options.on_step = {};
     const System& whole = mode.contact.system;
-    const System system{.rhs = whole.rhs, .with_jacobian = whole.with_jacobian, .project = whole.project};
+    const System system{.rhs = whole.rhs,
+                        .with_jacobian = whole.with_jacobian,
+                        .project = whole.project,
+                        .quick_times = whole.quick_times,
+                        .quick_places = whole.quick_places};
     const std::vector<double> initial(from.begin(), from.end());
     const Trajectory piece = mode.contact.switching
                                  ? integrate(zero_at_start(*mode.contact.switching, times[row], mode.side_sizes),

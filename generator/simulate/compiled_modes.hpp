@@ -45,6 +45,7 @@ struct CompiledMode {
     std::optional<int> jacobian_operations = {};       ///< set if it is emitted
     double effort = 0;                                 ///< of a right-hand side (effort_of)
     std::shared_ptr<const EventCode> event_code = {};  ///< of the events of `run`
+    std::shared_ptr<const EventCode> place_code = {};  ///< QuickPlaces::code
     bool was_asked_for_jacobian = false;
     std::optional<Module> with_jacobian = {};  ///< after the motion was found stiff; nothing where it is too long
 };

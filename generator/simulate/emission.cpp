@@ -13,6 +13,7 @@
 #include "codegen/emit/standalone.hpp"
 #include "program/lower/frame_functions.hpp"
 #include "program/lower/operational_space.hpp"
+#include "program/lower/quick_times.hpp"
 #include "program/lower/regressor.hpp"
 #include "program/lower/robot_functions.hpp"
 #include "scene/text.hpp"
@@ -44,10 +45,13 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
             say("a main program beside the equations follows no contacts, dry friction nor events that change the "
                 "motion, and this scene has some; use 'alembert simulate', or the library"));
     const Start start = assembled(m);
-    return standalone(
-        program,
-        {.t = start.t, .state = state_in(start, e), .duration = start.duration, .tolerance = start.tolerance},
-        language);
+    return standalone(program,
+                      {.t = start.t,
+                       .state = state_in(start, e),
+                       .duration = start.duration,
+                       .tolerance = start.tolerance,
+                       .quick_times = quick_times(program, start.parameters, start.t, start.t + start.duration)},
+                      language);
 }
 
 /// The state of the calling example: coordinates that follow from the constraints with 12 digits, so that the same

@@ -28,8 +28,20 @@ double apart(std::span<const double> a, std::span<const double> b, std::size_t c
     return largest;
 }
 
+/// Calls `use(i, y)` with values of each component that counts: those on the rows, and the smallest and the
+/// largest at the ends of steps.
+template <typename Use>
+void for_values(const PhasedMotion& motion, std::size_t count, const std::vector<Interval>& reached, Use use) {
+    for (const Phase& phase : motion.phases)
+        for (std::size_t row = 0; row < phase.motion.rows(); ++row)
+            for (std::size_t i = 0; i < count; ++i) use(i, phase.motion.state(row)[i]);
+    for (std::size_t i = 0; i < std::min(count, reached.size()); ++i)
+        for (const double y : {reached[i].low, reached[i].high}) use(i, y);
+}
+
 /// How far components of each kind move, for each component (estimate.hpp).
-std::vector<double> extents(const PhasedMotion& motion, const Components& compared) {
+std::vector<double> extents(const PhasedMotion& motion, const Components& compared,
+                            const std::vector<Interval>& reached) {
     constexpr double of_all = 1e-12, of_kind = 1e-10, of_one = 1e-16;
     const std::size_t n = compared.coordinates, count = compared.kinds.size();
     const int kinds = 1 + *std::max_element(compared.kinds.begin(), compared.kinds.end());
@@ -37,15 +49,12 @@ std::vector<double> extents(const PhasedMotion& motion, const Components& compar
     const double duration = motion.final_time() - first.times.front();
     std::vector<double> moved(static_cast<std::size_t>(2 * kinds)), size(moved.size());
     double largest[2] = {0, 0};
-    for (const Phase& phase : motion.phases)
-        for (std::size_t row = 0; row < phase.motion.rows(); ++row)
-            for (std::size_t i = 0; i < count; ++i) {
-                const double y = phase.motion.state(row)[i];
-                const auto k = static_cast<std::size_t>(2 * compared.kinds[i] + (i < n ? 0 : 1));
-                moved[k] = std::max(moved[k], std::abs(i < n ? y - first.state(0)[i] : y));
-                size[k] = std::max(size[k], std::abs(y));
-                largest[i < n ? 0 : 1] = std::max(largest[i < n ? 0 : 1], std::abs(y));
-            }
+    for_values(motion, count, reached, [&](std::size_t i, double y) {
+        const auto k = static_cast<std::size_t>(2 * compared.kinds[i] + (i < n ? 0 : 1));
+        moved[k] = std::max(moved[k], std::abs(i < n ? y - first.state(0)[i] : y));
+        size[k] = std::max(size[k], std::abs(y));
+        largest[i < n ? 0 : 1] = std::max(largest[i < n ? 0 : 1], std::abs(y));
+    });
     std::vector<double> result(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(2 * compared.kinds[i]);
@@ -57,15 +66,12 @@ std::vector<double> extents(const PhasedMotion& motion, const Components& compar
 }
 
 /// The largest |y − y(0)| of a coordinate; 0 where it is less than 1e-10 of the largest coordinate.
-double largest_move(const PhasedMotion& motion, std::size_t coordinates) {
+double largest_move(const PhasedMotion& motion, std::size_t coordinates, const std::vector<Interval>& reached) {
     double moved = 0, largest = 0;
-    for (const Phase& phase : motion.phases)
-        for (std::size_t row = 0; row < phase.motion.rows(); ++row)
-            for (std::size_t i = 0; i < coordinates; ++i) {
-                const double y = phase.motion.state(row)[i];
-                moved = std::max(moved, std::abs(y - motion.phases.front().motion.state(0)[i]));
-                largest = std::max(largest, std::abs(y));
-            }
+    for_values(motion, coordinates, reached, [&](std::size_t i, double y) {
+        moved = std::max(moved, std::abs(y - motion.phases.front().motion.state(0)[i]));
+        largest = std::max(largest, std::abs(y));
+    });
     return moved > 1e-10 * largest ? moved : 0;
 }
 
@@ -326,6 +332,8 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     const Rerunning reruns(motion, run, given, initial);
     Options options;
     ErrorEstimate estimate;
+    const auto reached = [&] { return components.reached ? components.reached() : std::vector<Interval>(); };
+    const std::vector<Interval> by_first = reached();
     const std::optional<PhasedMotion> second = reruns.other(options);
     if (!second) {
         estimate.by = say("no second run came to the same end");
@@ -333,8 +341,8 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     }
     estimate.by = fixed ? say("a second run with step {:g}", options.step)
                         : say("a second run at tolerance {:g}", options.tolerance);
-    std::vector<double> extent = extents(motion, components);
-    const std::vector<double> other = extents(*second, components);
+    std::vector<double> extent = extents(motion, components, by_first);
+    const std::vector<double> other = extents(*second, components, reached());
     for (std::size_t i = 0; i < extent.size(); ++i) extent[i] = std::min(extent[i], other[i]);
     Comparing compare(motion, given, components, extent);
     compare(*second);
@@ -345,7 +353,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     estimate.value = margin * compare.largest().value + rounding_of(motion, components);
     estimate.scaled = margin * compare.largest().scaled + rounding_of(motion, extent);
     estimate.at_jump = compare.is_at_jump();
-    estimate.moved = largest_move(motion, components.coordinates);
+    estimate.moved = largest_move(motion, components.coordinates, by_first);
     if (fixed && motion.statistics.steps < few_steps) {
         options.step /= 2;
         const PhasedMotion finer = run(options, initial);

@@ -20,9 +20,10 @@
 /// may consist of rounding, d contains a run that differs from the first in such disturbances alone.
 ///
 /// The distance that components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the
-/// run, or the largest |u| of their speeds, in the run that moves less. It counts as at least the size of possible
-/// rounding: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its kind (for speeds: of these
-/// coordinates, divided by the duration), and 1e-16.
+/// run and at the ends of its steps, or the largest |u| of their speeds, in the run that moves less. Rows alone
+/// may stand in step with a periodic motion, and all show it at the same place. It counts as at least the size of
+/// possible rounding: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its kind (for speeds: of
+/// these coordinates, divided by the duration), and 1e-16.
 ///
 /// The second run has a tenth of the tolerance (half the step); if that takes more than four times the
 /// evaluations, because rounding limits the steps, it has ten times the tolerance, and the estimate is then that
@@ -46,6 +47,7 @@
 #include <optional>
 #include <span>
 
+#include "alembert/base/interval.hpp"
 #include "alembert/hybrid/hybrid_motion.hpp"
 
 namespace alembert {
@@ -67,6 +69,8 @@ struct Components {
     std::vector<int> kinds = {};  ///< a number for each component, equal for components with the same unit
     /// q' of a state at a time, if the state has speeds in place of rates; may be empty.
     std::function<void(double t, std::span<const double> state, std::span<double> rates)> rates = {};
+    /// The values of all components at the ends of the steps of the last run; may be empty.
+    std::function<std::vector<Interval>()> reached = {};
 };
 
 ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& options,

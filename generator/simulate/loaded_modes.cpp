@@ -273,6 +273,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         .contact = {.system = {.rhs = make_rhs(module, values, compiled_.work()), .quick_times = quick_times_},
                     .events = make_events(module, values, stops, directions)}});
     mode->contact.events.bounds = bounds_of(made.event_code, values);
+    mode->contact.system.quick_places = {made.place_code, values};
     if (method.when_stiff || method.when_cheaper) {
         mode->contact.system.rhs.effort = made.effort;
         mode->contact.system.rhs.slowness = method.slowness;

@@ -68,7 +68,7 @@ std::vector<double> Workbench::momenta(double t, const double* state, const Rhs&
 }
 
 System Workbench::able(const Rhs& rhs) {
-    System result{.rhs = rhs, .quick_times = parts_.quick_times};
+    System result{.rhs = rhs, .quick_times = parts_.quick_times, .quick_places = parts_.quick_places};
     if (!parts_.derived.mechanism.constraints.empty()) result.project = projection_.after_steps();
     return result;
 }
@@ -123,8 +123,7 @@ void Workbench::choose(Options& options, const System& system, const std::vector
     const auto trial = method_trial(system, parts_.initial, options, rivals,
                                     {.begin = [&] { projection_.begin(options.start, parts_.initial.data()); }});
     if (!trial || trial->fastest == options.method) return;
-    const bool constrained = !parts_.derived.mechanism.constraints.empty();
-    const MethodChoice choice = after_trial({.method = options.method}, *trial, constrained);
+    const MethodChoice choice = after_trial({.method = options.method}, *trial);
     options.method = choice.method;
     options.when_stuck = choice.when_stuck;
     options.when_cheaper = choice.when_cheaper;

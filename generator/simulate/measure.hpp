@@ -52,6 +52,7 @@ public:
         std::shared_ptr<const Canonical> canonical = {};  ///< likewise
         std::vector<double> parameters, initial;
         std::vector<QuickTime> quick_times = {};  ///< System::quick_times
+        QuickPlaces quick_places = {};            ///< System::quick_places
         double effort = 0;                        ///< Rhs::effort
         Slowness slowness = {};                   ///< Rhs::slowness
         bool conserved = true;                    ///< whether the energy is conserved

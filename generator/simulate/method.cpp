@@ -142,7 +142,7 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
                                steps)};
         return {.method = Method::rk4, .why = say("chosen for a fixed step")};
     }
-    const bool constrained = !d.mechanism.constraints.empty(), linked = is_linked(d.mechanism);
+    const bool linked = is_linked(d.mechanism);
     const Slowness slowness = request.tuning ? slowness_here() : Slowness{};
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
     const bool is_strict = tolerance < (linked ? strict.linked : strict.free);
@@ -153,7 +153,7 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
             (linear || is_series_faster(program, tolerance, cost_of_series(program, request), slowness, nystrom)))
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
-                    .when_stuck = constrained ? std::optional(Method::dop853) : std::nullopt,
+                    .when_stuck = Method::dop853,
                     .rivals = rivals_in(request, d, tolerance, nystrom),
                     .slowness = slowness,
                     .why = say(
@@ -233,7 +233,7 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
     return automatic(request, d, program, start);
 }
 
-MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial, bool constrained) {
+MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial) {
     std::vector<std::string_view> tried;
     for (const MethodAttempt& attempt : trial.attempts) tried.push_back(name(attempt.method));
     choice.rivals.clear();
@@ -244,7 +244,7 @@ MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial, bool con
     choice.method = trial.fastest;
     const bool by_series = needs_series(choice.method);
     if (by_series) choice.when_cheaper = {};
-    choice.when_stuck = by_series && constrained ? std::optional(Method::dop853) : std::nullopt;
+    choice.when_stuck = by_series ? std::optional(Method::dop853) : std::nullopt;
     return choice;
 }
 

@@ -56,8 +56,8 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& der
 MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program,
                         const Start& start);
 
-/// The choice after a trial has found the fastest method. `constrained`: whether the scene has constraints.
-MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial, bool constrained);
+/// The choice after a trial has found the fastest method.
+MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial);
 
 /// Whether the motion has a power series that is short enough to be compiled.
 bool has_short_series(const Program& program, const Derived& derived);

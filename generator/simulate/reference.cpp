@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <span>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "base/language/say.hpp"
+#include "program/event_code.hpp"
 #include "program/lower/lower.hpp"
+#include "program/lower/quick_times.hpp"
 #include "program/tape.hpp"
 
 namespace alembert {
@@ -153,6 +157,30 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
     return start;
 }
 
+namespace {
+
+/// The steps of a run in doubles that passes over no pulse and no narrow place; empty where there can be none.
+std::vector<double> mesh_of(const Program& program, const std::vector<double>& parameters, const RoughRhs& rhs,
+                            const QuadStart& start) {
+    const auto t = static_cast<double>(start.t), duration = static_cast<double>(start.duration);
+    System system{.quick_times = quick_times(program, parameters, t, t + duration),
+                  .quick_places = {quick_places_code(program), parameters}};
+    if (!(duration > 0) || (system.quick_times.empty() && !system.quick_places.code)) return {};
+    std::vector<double> initial, mesh;
+    for (const Quad& y : start.state) initial.push_back(static_cast<double>(y));
+    system.rhs = make_rhs(static_cast<int>(initial.size()), rhs);
+    integrate(
+        system, initial,
+        {.start = t,
+         .duration = duration,
+         .sample = duration,
+         .when_stiff = Method::radau,
+         .on_step = [&](double end, std::span<const double>, std::span<const double>) { mesh.push_back(end); }});
+    return mesh;
+}
+
+}  // namespace
+
 std::optional<Reference> reference(const Program& program, const QuadStart& start,
                                    const ReferenceOptions& options) {
     const std::size_t n = program.coordinates.size();
@@ -188,10 +216,11 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     const long budget = static_cast<long>(options.seconds / each) + 1;
 
     const Quad end = start.t + start.duration;
+    const std::vector<double> mesh = mesh_of(program, parameters, rough, start);
     for (const double tolerance : {1e-28, 1e-20}) {
         share = 0;
         const QuadMotion first =
-            extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
+            extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget, .mesh = mesh});
         if (!first.finished) continue;
         share = 0.5;
         const QuadMotion second =

@@ -11,6 +11,8 @@
 #include "analysis/state/start_derivatives.hpp"
 #include "base/language/libraries.hpp"
 #include "base/language/say.hpp"
+#include "program/event_code.hpp"
+#include "program/lower/quick_times.hpp"
 #include "program/variation.hpp"
 
 namespace alembert {
@@ -161,11 +163,35 @@ Sensitivity Sensitivities::at(double end, double tolerance, long budget) const {
     return forwards(end, tolerance, budget);
 }
 
-Trajectory Sensitivities::integrated(const Rhs& rhs, const std::vector<double>& start, Options options) const {
+namespace {
+
+/// The system in the time `from` − t.
+System reversed(const System& forwards, Rhs back, double from) {
+    System result{.rhs = std::move(back), .quick_places = forwards.quick_places};
+    for (auto q = forwards.quick_times.rbegin(); q != forwards.quick_times.rend(); ++q)
+        result.quick_times.push_back({.from = from - q->to,
+                                      .to = from - q->from,
+                                      .enter = q->enter,
+                                      .step = q->step,
+                                      .is_switch = q->is_switch});
+    return result;
+}
+
+}  // namespace
+
+/// Forwards, with the state before all else in it.
+System Sensitivities::watched(Rhs rhs, double end) const {
+    return {.rhs = std::move(rhs),
+            .quick_times = quick_times(program_, start_.parameters, start_.t, end),
+            .quick_places = {quick_places_code(program_), start_.parameters}};
+}
+
+Trajectory Sensitivities::integrated(const System& system, const std::vector<double>& start,
+                                     Options options) const {
     options.method = Method::dop853;
     options.longest_step = start_.max_step;
     options.when_stiff = Method::radau;
-    Trajectory motion = integrate(rhs, start, options);
+    Trajectory motion = integrate(system, start, options);
     if (motion.failure)
         throw IntegrationError(
             say("the derivatives of --sensitivity: {}", translated_from_library(motion.failure->message)),
@@ -182,7 +208,7 @@ Sensitivity Sensitivities::forwards(double end, double tolerance, long budget) c
     for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
     const double duration = end - start_.t;
     const Trajectory motion = integrated(
-        both, y,
+        watched(both, end), y,
         {.start = start_.t, .duration = duration, .tolerance = tolerance, .sample = duration, .budget = budget});
     const auto last = motion.final_state();
     const AtEnd wanted = at_end(end, last.first(N));
@@ -208,10 +234,11 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance
     const double duration = end - start_.t;
     Options options{
         .start = start_.t, .duration = duration, .tolerance = tolerance, .sample = duration, .budget = budget};
-    const Statistics counted = integrated(alone, state_, options).statistics;
+    const System forwards = watched(alone, end);
+    const Statistics counted = integrated(forwards, state_, options).statistics;
     if (counted.switched) return std::nullopt;
     options.sample = duration / static_cast<double>(1 + counted.steps / steps_between_rows);
-    const Trajectory motion = integrated(alone, state_, options);
+    const Trajectory motion = integrated(forwards, state_, options);
     const AtEnd wanted = at_end(end, motion.final_state());
 
     Sensitivity result{.time = end,
@@ -233,7 +260,7 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance
             variation.backwards(from - s, now, rate, rows);
         });
         const double length = from - motion.times[k - 1];
-        const Trajectory piece = integrated(back, y,
+        const Trajectory piece = integrated(reversed(forwards, back, from), y,
                                             {.duration = length,
                                              .tolerance = tolerance,
                                              .sample = length,

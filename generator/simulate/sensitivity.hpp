@@ -57,7 +57,8 @@ private:
     AtEnd at_end(double t, std::span<const double> state) const;
     Sensitivity forwards(double end, double tolerance, long budget) const;
     std::optional<Sensitivity> backwards(double end, double tolerance, long budget) const;
-    Trajectory integrated(const Rhs& rhs, const std::vector<double>& start, Options options) const;
+    System watched(Rhs rhs, double end) const;
+    Trajectory integrated(const System& system, const std::vector<double>& start, Options options) const;
 
     Program program_;
     Start start_;

@@ -83,6 +83,7 @@ public:
         LoadedModes modes(
             compiled, start_, first_,
             [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
+                reach(state);
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
         modes.on_side_change = [&](const ModeChange& change, const std::string& name,
@@ -168,8 +169,17 @@ private:
         watch.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
     }
 
-    PhasedMotion followed(LoadedModes& modes, const Options& options, const std::vector<double>& from) const {
+    /// Widens what the run has reached by a state.
+    void reach(std::span<const double> state) {
+        if (reached_.empty())
+            for (const double y : state) reached_.push_back({y, y});
+        for (std::size_t i = 0; i < std::min(reached_.size(), state.size()); ++i)
+            reached_[i] = hull(reached_[i], {state[i], state[i]});
+    }
+
+    PhasedMotion followed(LoadedModes& modes, const Options& options, const std::vector<double>& from) {
         modes.begin();
+        reached_.clear();
         return follow(
             contacts_, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
             from, options);
@@ -190,7 +200,7 @@ private:
         const std::optional<MethodTrial> trial = method_trial(mode.system, initial_state(), options_,
                                                               choice_.rivals, {.begin = [&] { modes.begin(); }});
         if (!trial) return;
-        choice_ = after_trial(choice_, *trial, !run_.mechanism.constraints.empty());
+        choice_ = after_trial(choice_, *trial);
         options_.method = choice_.method;
         options_.when_stuck = choice_.when_stuck;
         options_.when_cheaper = choice_.when_cheaper;
@@ -281,6 +291,7 @@ private:
                 free.contact.system.rhs(t, state.data(), all.data());
                 std::copy_n(all.begin(), rates.size(), rates.begin());
             };
+        components.reached = [this] { return reached_; };
         run_.estimate = error_estimate(
             run_.motion,
             [&](const Options& options, const std::vector<double>& from) {
@@ -357,6 +368,7 @@ private:
     std::optional<KickView> kicks_;
     Contacts contacts_;
     std::vector<double> initial_;
+    std::vector<Interval> reached_;  ///< the values of each component at the ends of steps
     std::optional<JointReactions> reactions_;
     std::optional<AnglesOfFrame> angles_;
     std::optional<ChartRun> charts_;

@@ -14,6 +14,24 @@
 
 namespace alembert {
 
+namespace {
+
+/// The rows of sudden times, and of those next to them, in which the motion does not yet show what has begun.
+std::vector<std::string> quick_rows(const std::vector<QuickTime>& quick) {
+    constexpr int shown_after = 8;
+    std::vector<std::string> rows;
+    int left = 0;
+    for (const QuickTime& q : quick) {
+        left = q.enter == 0 ? shown_after : left - 1;
+        if (left > 0)
+            rows.push_back(fmt::format("    {{{}, {}, {}, {}}}", shortest(q.from), shortest(q.to),
+                                       shortest(q.enter), shortest(q.step)));
+    }
+    return rows;
+}
+
+}  // namespace
+
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language) {
     const Vocabulary words(program);
     const std::string scene = ascii_identifier(program.name), ending = language == CodeLanguage::c ? "c" : "cpp",
@@ -36,6 +54,10 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("constraints", std::to_string(program.nodes_of(Group::velocity).size()));
     file.set("has_project", !program.nodes_of(Group::projected).empty());
     file.set("has_energy", !energy(program).results.empty());
+    const std::vector<std::string> quick = quick_rows(start.quick_times);
+    file.set("has_quick", !quick.empty());
+    file.set("quick_times", std::to_string(quick.size()));
+    file.set("quick", fmt::format("{}", fmt::join(quick, ",\n")));
     file.set("projection", projection_text(program, language));
     file.set("initial", initial);
     file.set("columns", columns);

@@ -8,6 +8,7 @@
 ///
 /// The template is templates/standalone.mustache.
 
+#include "alembert/ode/input_time_scales.hpp"
 #include "codegen/emit/emit.hpp"
 
 namespace alembert {
@@ -17,6 +18,7 @@ struct StandaloneStart {
     std::vector<double> state;  ///< q, then u
     double duration = 10;       ///< s
     double tolerance = 1e-9;    ///< the tolerance of a step, relative to max(1, |y|)
+    std::vector<QuickTime> quick_times = {};
 };
 
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language);

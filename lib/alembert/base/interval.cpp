@@ -34,13 +34,13 @@ Bounds cos(const Bounds& a) {
 }
 
 Bounds tan(const Bounds& a) {
-    if (!cos(a.value).has_sign()) return whole_bounds();
+    if (!cos(a.value).has_sign()) return a.nowhere ? no_bounds() : whole_bounds();
     const Interval f = rising(a.value, [](double x) { return std::tan(x); }), slope = one + square(f);
     return through(a, f, slope, 2 * (f * slope));
 }
 
 Bounds asin(const Bounds& a) {
-    if (a.value.high < -1 || a.value.low > 1) return whole_bounds();
+    if (a.value.high < -1 || a.value.low > 1) return no_bounds();
     const Interval x{std::max(-1.0, a.value.low), std::min(1.0, a.value.high)};
     const Interval f = rising(x, [](double s) { return std::asin(s); });
     if (a.value.low <= -1 || a.value.high >= 1) return through(a, f, {1, HUGE_VAL}, Interval::whole());
@@ -87,14 +87,14 @@ Bounds exp(const Bounds& a) {
 }
 
 Bounds log(const Bounds& a) {
-    if (a.value.high <= 0) return whole_bounds();
+    if (a.value.high <= 0) return a.value.high < 0 ? no_bounds() : whole_bounds();
     const double low = std::max(0.0, a.value.low);
     const Interval slope = inverse(Interval{low, a.value.high});
     return through(a, widened(std::log(low), std::log(a.value.high)), slope, -square(slope));
 }
 
 Bounds sqrt(const Bounds& a) {
-    if (a.value.high < 0) return whole_bounds();
+    if (a.value.high < 0) return no_bounds();
     const double low = std::sqrt(std::max(0.0, a.value.low)), high = std::sqrt(a.value.high);
     const Interval slope = widened(0.5 / high, 0.5 / low);
     return through(a, widened(low, high), slope, -2 * power(slope, 3));
@@ -107,12 +107,12 @@ Bounds abs(const Bounds& a) {
 }
 
 Bounds sign(const Bounds& a) {
-    if (a.value.has_sign()) return {a.value.low > 0 ? one : -one, {}, {}};
-    return {{-1, 1}, Interval::whole(), Interval::whole()};
+    if (a.value.has_sign()) return {a.value.low > 0 ? one : -one, {}, {}, a.nowhere};
+    return {{-1, 1}, Interval::whole(), Interval::whole(), a.nowhere};
 }
 
 Bounds pow(const Bounds& a, const Bounds& b) {
-    if (!(a.value.low > 0)) return whole_bounds();
+    if (!(a.value.low > 0)) return a.nowhere || b.nowhere ? no_bounds() : whole_bounds();
     return exp(b * log(a));
 }
 
@@ -122,10 +122,14 @@ Bounds atan2(const Bounds& y, const Bounds& x) {
     if (y.value.has_sign())
         return Bounds{{y.value.low > 0 ? right : -right, y.value.low > 0 ? right : -right}, {}, {}} +
                -1.0 * atan(x * inverse(y));
-    return {{-std::numbers::pi - 1e-15, std::numbers::pi + 1e-15}, Interval::whole(), Interval::whole()};
+    return {{-std::numbers::pi - 1e-15, std::numbers::pi + 1e-15},
+            Interval::whole(),
+            Interval::whole(),
+            x.nowhere || y.nowhere};
 }
 
 Bounds least_of(const Bounds& a, const Bounds& b) {
+    if (a.nowhere || b.nowhere) return no_bounds();
     if (a.value.high < b.value.low) return a;
     if (b.value.high < a.value.low) return b;
     return {{std::min(a.value.low, b.value.low), std::min(a.value.high, b.value.high)},

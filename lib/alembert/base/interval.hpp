@@ -8,7 +8,8 @@
 ///     const Bounds y = sin({x, {1, 1}, {0, 0}});        // sin x, and its derivatives by x
 ///
 /// Each result is widened by a few rounding errors (Moore, Interval Analysis, 1966, §§3, 11). An operation that is
-/// undefined somewhere in its arguments gives the whole line where it is defined at all.
+/// undefined somewhere in its arguments gives the whole line where it is defined at all; Bounds tell if it is
+/// defined nowhere.
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +27,11 @@ struct Interval {
     double size() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
+/// A low end that overflows is at least the largest number.
 inline Interval widened(double low, double high) {
     constexpr double rounded = 4 * std::numeric_limits<double>::epsilon(),
-                     least = std::numeric_limits<double>::min();
+                     least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
+    low = std::min(low, most), high = std::max(high, -most);
     const double a = low - rounded * std::abs(low) - (low != 0 ? least : 0),
                  b = high + rounded * std::abs(high) + (high != 0 ? least : 0);
     return {std::isnan(a) ? -HUGE_VAL : a, std::isnan(b) ? HUGE_VAL : b};
@@ -82,27 +85,40 @@ inline Interval sin(const Interval& a) {
     return cos(a - Interval{std::numbers::pi / 2, std::numbers::pi / 2});
 }
 
+/// The values between two points at a distance w of the cubic polynomial with these values and slopes: it lies
+/// between its Bézier points. `margin` is what a smooth function may differ from it, as a part of the range.
+inline Interval cubic_range(double a, double a_slope, double b, double b_slope, double w, double margin) {
+    const double next = a + a_slope * w / 3, before = b - b_slope * w / 3;
+    const double low = std::min({a, b, next, before}), high = std::max({a, b, next, before});
+    const double more = margin * (high - low);
+    return widened(low - more, high + more);
+}
+
 /// A quantity along a motion and its first two derivatives by time.
 struct Bounds {
     Interval value, first, second;
+    bool nowhere = false;  ///< whether it has no value at all, as the root of what is negative
 };
 
 inline Bounds whole_bounds() {
     return {Interval::whole(), Interval::whole(), Interval::whole()};
 }
+inline Bounds no_bounds() {
+    return {Interval::whole(), Interval::whole(), Interval::whole(), true};
+}
 inline Bounds operator+(const Bounds& a, const Bounds& b) {
-    return {a.value + b.value, a.first + b.first, a.second + b.second};
+    return {a.value + b.value, a.first + b.first, a.second + b.second, a.nowhere || b.nowhere};
 }
 inline Bounds operator*(double c, const Bounds& a) {
-    return {c * a.value, c * a.first, c * a.second};
+    return {c * a.value, c * a.first, c * a.second, a.nowhere};
 }
 inline Bounds operator*(const Bounds& a, const Bounds& b) {
     return {a.value * b.value, a.first * b.value + a.value * b.first,
-            a.second * b.value + 2.0 * (a.first * b.first) + a.value * b.second};
+            a.second * b.value + 2.0 * (a.first * b.first) + a.value * b.second, a.nowhere || b.nowhere};
 }
 /// f(a), given the bounds of f, f' and f'' on a.value.
 inline Bounds through(const Bounds& a, const Interval& f, const Interval& slope, const Interval& bend) {
-    return {f, slope * a.first, bend * power(a.first, 2) + slope * a.second};
+    return {f, slope * a.first, bend * power(a.first, 2) + slope * a.second, a.nowhere};
 }
 Bounds power(const Bounds& a, int n);
 Bounds inverse(const Bounds& a);

@@ -221,6 +221,7 @@ private:
         System system{.rhs = rhs_of(e_, member.parameters),
                       .quick_times = member.quick_times != nullptr ? *member.quick_times : options_.quick_times};
         const std::vector<double> par = prepared(e_.module, member.parameters);
+        system.quick_places = {e_.place_code, par};
         const std::vector<double> state = with_quadratures(e_, member.state);
         Drift drift(table.coordinates, table.speeds, works);
         Options options = options_;

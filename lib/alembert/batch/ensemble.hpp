@@ -54,6 +54,7 @@ struct Ensemble {
     SeriesModule series = {};  ///< for the method taylor; with the work of loads if that is integrated
     std::shared_ptr<const SeriesPacks> series_packs = {};  ///< the same for eight members; may be null
     std::shared_ptr<const EventCode> event_code = {};      ///< of the module's events; may be null
+    std::shared_ptr<const EventCode> place_code = {};      ///< QuickPlaces::code; may be null
     std::vector<bool> stops = {};  ///< which of the module's events end a motion; if empty, none does
     /// One list for each member; if empty, Options::quick_times.
     std::vector<std::vector<QuickTime>> quick_times = {};

@@ -25,6 +25,7 @@
 #include "alembert/batch/ensemble.hpp"
 #include "alembert/ode/energy_error.hpp"
 #include "alembert/ode/missed_feature_check.hpp"
+#include "alembert/ode/quick_places.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "alembert/ode/running_extrema.hpp"
 #include "alembert/ode/step_size.hpp"
@@ -52,8 +53,10 @@ class PackRun {
         StepSize control{1};
         Drift drift{0, 0, false};
         RunningExtrema along;
+        QuickPlaces places = {};
         Rhs rhs = {};  ///< of this member alone, if there are states within steps to look at
         std::vector<double> start_state = {}, start_rate = {};  ///< of a step that is to be looked into, or none
+        bool is_suspect = false;                                ///< whether that step has next to no error
         Outcome outcome;
     };
 
@@ -154,7 +157,7 @@ private:
         for (int i = 0; i < lanes; ++i) length[i] = step_.end[i] - step_.time[i];
         const unsigned begun = new_lanes();
         if (good != 0) {
-            if constexpr (chooses_by_estimate) note_starts(good, length);
+            if constexpr (!Step::has_fixed_step) note_starts(good, length);
             step_.advance(good);
             step_.energies(energy_);
         }
@@ -175,8 +178,8 @@ private:
                     give_back(i);
                     continue;
                 }
-            if constexpr (chooses_by_estimate)
-                if (is_good && !passes_over_nothing(i, length[i])) {
+            if constexpr (!Step::has_fixed_step)
+                if (is_good && !has_begun && !passes_over_nothing(i, length[i])) {
                     give_back(i);
                     continue;
                 }
@@ -189,20 +192,25 @@ private:
         }
     }
 
-    /// Keeps the starts of the steps that are a good part of their runs and have next to no error.
+    /// Keeps the starts of the steps that are a good part of their runs and have next to no error, and of all
+    /// where functions of the state may change fast.
     void note_starts(unsigned good, const double (&length)[lanes]) {
         for (int i = 0; i < lanes; ++i) {
             Lane& lane = lane_[i];
             lane.start_state.clear();
             lane.start_rate.clear();
-            if ((good >> i & 1U) == 0 || step_.misfit[i] > next_to_none * options_.tolerance ||
-                places_within(length[i], lane.member.duration) <= 1)
-                continue;
+            if ((good >> i & 1U) == 0 || (!ensemble_.place_code && !is_suspect(i, length[i]))) continue;
+            lane.is_suspect = is_suspect(i, length[i]);
             for (int k = 0; k < dimension_; ++k) {
                 lane.start_state.push_back(step_.state(k, i));
                 lane.start_rate.push_back(step_.rate(k, i));
             }
         }
+    }
+
+    bool is_suspect(int i, double length) const {
+        return chooses_by_estimate && !(step_.misfit[i] > next_to_none * options_.tolerance) &&
+               places_within(length, lane_[i].member.duration) > 1;
     }
 
     /// Of the step that ends where the lane is now: whether nothing is found within, where it is to be looked
@@ -229,8 +237,9 @@ private:
                                   .start_state = lane.start_state.data(),
                                   .start_rate = lane.start_rate.data(),
                                   .interpolate = between};
-        return is_clear(stretch, places_within(length, lane.member.duration), lane.rhs, options_.tolerance,
-                        lane.outcome.evaluations);
+        if (ensemble_.place_code && !PlaceWatch(lane.places, lane.rhs, 0).is_mild(stretch)) return false;
+        return !lane.is_suspect || is_clear(stretch, places_within(length, lane.member.duration), lane.rhs,
+                                            options_.tolerance, lane.outcome.evaluations);
     }
 
     /// Those whose step is their first one, without length.
@@ -349,6 +358,7 @@ private:
             if constexpr (has_own_lengths) lane.rhs = rhs;
         }
         const std::vector<double> par = prepared(ensemble_.module, member.parameters);
+        lane.places = {ensemble_.place_code, par};
         step_.put(i, member.start, state.data(), rate_.data(), par);
         double energy[4], jacobi = 0;
         table.energy(member.start, state.data(), rate_.data(), par.data(), energy, &jacobi);

@@ -199,12 +199,12 @@ private:
             std::vector<int> others = all;
             others.erase(std::find(others.begin(), others.end(), k));
             if (const Lasting without = lasting_contacts(here_, others)) {
-                const double opens =
-                    here_.contacts.rows.row(k).dot(without.acceleration) - here_.contacts.acceleration[k];
-                const double size = acceleration_scale(k, without.acceleration);
-                if (opens >= -at_.tolerance * size) {
+                const double opens = opening(here_, without, k);
+                const double small =
+                    at_.tolerance * acceleration_scale(k, without.acceleration) + uncertainty(others, k, opens);
+                if (opens >= -small) {
                     take(without);
-                    if (std::abs(opens) <= at_.tolerance * size && is_carried(here_, without.closed, k))
+                    if (std::abs(opens) <= small && is_carried(here_, without.closed, k))
                         result_.resting.push_back(k);
                     return;
                 }
@@ -215,6 +215,30 @@ private:
             take(lasting);
         else if (count_ > 0)
             result_.failure = refusal_of(lasting, at_.t, all, contacts_.names);
+    }
+
+    /// gap'' of contact k without its force.
+    static double opening(const Situation& here, const Lasting& without, int k) {
+        return here.contacts.rows.row(k).dot(without.acceleration) - here.contacts.acceleration[k];
+    }
+
+    /// By how much errors of the state and of the instant change gap'' of a contact whose reaction has just come
+    /// down to zero. There the forces that press it balance, so that gap'' itself does not tell its size; and
+    /// since the reaction falls, gap''' decides, which is positive.
+    double uncertainty(const std::vector<int>& others, int k, double opens) const {
+        constexpr double instant = 1e-12;
+        const auto change = [&](double t, const std::vector<double>& state) {
+            const Situation beside = contacts_.situation(t, state.data());
+            const Lasting without = lasting_contacts(beside, others);
+            return without ? std::abs(opening(beside, without, k) - opens) : 0;
+        };
+        double sum = change(at_.t + instant * std::max(1.0, std::abs(at_.t)), state_);
+        for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(n_); ++i) {
+            std::vector<double> state = state_;
+            state[i] += at_.tolerance * std::max(1.0, std::abs(state[i]));
+            sum += change(at_.t, state);
+        }
+        return sum;
     }
 
     /// The size that gap'' has with or without the contact forces; its errors are measured relative to it.

@@ -52,6 +52,7 @@ public:
           tolerance_(tolerance_within_rounding(options.tolerance)),
           step_(system.rhs, options.start, initial, tolerance_),
           watch_(events, system.rhs),
+          places_(system.quick_places, system.rhs, terms_left_out * tolerance_),
           rounding_(tolerance_),
           stiffness_(stable_interval(), dearer(), piece.turns.patience),
           recorder_(result_, events, sample_interval(options)),
@@ -95,7 +96,7 @@ private:
 
     long evaluations() const {
         return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + rounding_.evaluations() +
-               further_evaluations_ + (series_ ? series_->evaluations() : 0) +
+               places_.evaluations() + further_evaluations_ + (series_ ? series_->evaluations() : 0) +
                (disturbance_ ? disturbance_->evaluations() : 0);
     }
 
@@ -182,9 +183,7 @@ private:
             h = within_quick_times(wish);
             const bool is_held = h < wish;
             if (is_over_budget()) return;
-            if (h < 16 * std::numeric_limits<double>::epsilon() * std::abs(step_.time()) ||
-                step_.time() + h == step_.time())
-                return fail_underflow(misfit, h);
+            if (h < shortest() || step_.time() + h == step_.time()) return fail_underflow(misfit, h);
             const double reach = step_.time() + std::min(1.01 * h, longest * (1 + 1e-9));
             step_.attempt(reach < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
@@ -200,6 +199,7 @@ private:
             if (good && !ended() && is_shrinking(std::min(h, longest)))
                 return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
             if (good && !was_foreseen) h = std::min(h, 2 * step_.length());  // what is ahead is still there
+            if (clear_part_ < 1) h = std::exchange(clear_part_, 1) * step_.length();
             was_foreseen = is_foreseen;
             if constexpr (!ChoosesLength<AnyStep>)
                 if (is_held && good) h = std::max(h, wish);  // a step that was shortened on request is no forecast
@@ -209,6 +209,7 @@ private:
     bool is_shrinking(double h) {
         if constexpr (!KnowsSeries<AnyStep>) return false;
         if (!options_.when_stuck || step_.time() >= end_) return false;
+        if (!system_.project && !piece_.turns.may_leave_series) return false;
         double fastest = 0;
         for (int i = 0; i < result_.dimension; ++i) fastest = std::max(fastest, std::abs(step_.rate()[i]));
         return shrinking_.shrinks(h, fastest);
@@ -225,6 +226,9 @@ private:
         if constexpr (KnowsRounding<AnyStep>) return step_.rounding();
         return rounding_.level(step_.length());
     }
+
+    /// Of a step that t can distinguish.
+    double shortest() const { return 16 * std::numeric_limits<double>::epsilon() * std::abs(step_.time()); }
 
     /// h, or less where an input changes fast.
     double within_quick_times(double h) {
@@ -262,6 +266,10 @@ private:
     /// Whether the step has passed over nothing that the method cannot have seen, as far as that can be told. A
     /// step that is a good part of the run and has next to no error is looked at.
     bool is_foreseen_after(double misfit) {
+        if (places_.watches() && step_.length() > 64 * shortest()) {
+            clear_part_ = places_.clear_part(stretch());
+            if (clear_part_ < 1) return false;
+        }
         if constexpr (KnowsSeries<AnyStep>) return step_.foresees_end();
         if (misfit > next_to_none * tolerance_) return true;  // so it is for most steps
         const int places = places_within(step_.length(), options_.duration);
@@ -453,6 +461,8 @@ private:
     const double tolerance_;
     AnyStep step_;
     EventWatch watch_;
+    PlaceWatch places_;
+    double clear_part_ = 1;  ///< of the step that was just tried
     RoundingWatch rounding_;
     StiffnessWatch stiffness_;
     Pace pace_;

@@ -15,22 +15,14 @@ bool EventWatch::shows_all(const StepView& step, const Piece& piece, const FiveP
     if (!describes(step, piece, points, index)) return false;
     const auto k = static_cast<std::size_t>(index);
     double largest = 0;
-    for (const std::size_t i : piece) largest = std::max(largest, std::abs(samples_[i].value[k]));
+    for (const std::size_t i : piece)  // what has no value at any of them may have one between
+        largest = std::max(largest, std::isnan(samples_[i].value[k]) ? HUGE_VAL : std::abs(samples_[i].value[k]));
     if (!(largest > 64 * rounding(step, index))) return true;
     left_[k] -= 4;
     return left_[k] < 0;
 }
 
 namespace {
-
-/// The values between two points at a distance w of the cubic polynomial with these values and slopes: it lies
-/// between its Bézier points. `margin` is what a smooth function may differ from it, as a part of the range.
-Interval range(double a, double a_slope, double b, double b_slope, double w, double margin) {
-    const double next = a + a_slope * w / 3, before = b - b_slope * w / 3;
-    const double low = std::min({a, b, next, before}), high = std::max({a, b, next, before});
-    const double more = margin * (high - low);
-    return widened(low - more, high + more);
-}
 
 double product(const FiveNumbers& a, const FiveNumbers& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4];
@@ -66,7 +58,7 @@ private:
     Interval between(const FiveNumbers& y, const FiveNumbers& slope, double margin) const {
         const FiveNumbers& theta = points_.places();
         const auto in_gap = [&](std::size_t i) {
-            return range(y[i], slope[i], y[i + 1], slope[i + 1], theta[i + 1] - theta[i], margin);
+            return cubic_range(y[i], slope[i], y[i + 1], slope[i + 1], theta[i + 1] - theta[i], margin);
         };
         Interval all = in_gap(gap_);
         for (std::size_t i = gap_ + 1; i < gap_ + gaps_; ++i) all = hull(all, in_gap(i));
@@ -104,11 +96,16 @@ private:
     std::size_t gap_ = 0, gaps_ = 0;
 };
 
-/// Whether all samples have one sign, and bounds show that the event keeps it.
+/// Whether all samples have one sign, and bounds show that the event keeps it; or whether it has no value at all.
 bool EventWatch::stays_away(const StepView& step, const Piece& piece, const FivePoints& points, int index) const {
     if (!events_.bounds.has(index)) return false;
     const auto side = [&](std::size_t i) { return side_of(samples_[i].value[static_cast<std::size_t>(index)]); };
     const int first = side(piece[0]);
+    const auto is_missing = [&](std::size_t i) {
+        return std::isnan(samples_[i].value[static_cast<std::size_t>(index)]);
+    };
+    if (std::all_of(piece.begin(), piece.end(), is_missing))
+        return BoundsOfPiece(*this, step, piece, points)(index, 0, 4).nowhere;
     if (first == 0 || !std::all_of(piece.begin(), piece.end(), [&](std::size_t i) { return side(i) == first; }))
         return false;
     const Interval value = BoundsOfPiece(*this, step, piece, points)(index, 0, 4).value;
@@ -123,6 +120,10 @@ bool EventWatch::is_bounded(const StepView& step, const Piece& piece, const Five
     for (std::size_t gap = 0; gap < 4; ++gap) {
         const Sample &a = samples_[piece[gap]], &b = samples_[piece[gap + 1]];
         const Bounds g = bounds(index, gap, 1);
+        if (std::isnan(a.value[k]) || std::isnan(b.value[k])) {  // where it ends, there may be a zero before
+            if (g.nowhere) continue;
+            return false;
+        }
         const double w = b.theta - a.theta, bend = g.second.size();
         const double beside = std::min(std::abs(a.value[k]), std::abs(b.value[k]));
         const bool same_side = side_of(a.value[k]) * side_of(b.value[k]) > 0;

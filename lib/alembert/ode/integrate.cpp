@@ -102,6 +102,8 @@ public:
         const bool is_stiff = next_->why == Switch::Why::stiff, is_stuck = next_->why == Switch::Why::stuck;
         const bool is_cheaper = next_->why == Switch::Why::cheaper;
         if (is_cheaper) when_stuck_ = std::exchange(usual_, *when_cheaper_);
+        may_leave_series_ = may_leave_series_ || is_cheaper;
+        piece.turns.may_leave_series = may_leave_series_;
         if (is_stuck) usual_ = *std::exchange(when_stuck_, {});
         if (is_stuck || is_cheaper) when_cheaper_ = {};
         rest.method = usual_;
@@ -155,6 +157,7 @@ private:
     std::optional<Switch> next_;
     Method usual_;  ///< the one that is left when the run is found to be stiff
     std::optional<Method> when_stuck_, when_cheaper_;
+    bool may_leave_series_ = false;
     long patience_ = 50;
     double grid_ = 0;
     std::optional<Rhs> implicit_ = {}, series_ = {};

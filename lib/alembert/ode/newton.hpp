@@ -8,11 +8,12 @@
 ///     Contraction contraction(tolerance);
 ///     for (...) if (contraction.after(ends.norm(delta)) != Contraction::more) break;
 ///
-/// ∂f/∂y is the right-hand side's own where it has one (Rhs::jacobian; it counts as one evaluation), else by
-/// differences, n evaluations. The differences are taken over √ε max(|y_i|, |h f_i|, 1e-3). They have half the
-/// digits, which costs the simplified Newton method some speed of convergence but no accuracy. The forecast is
-/// that of Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8: if Θ is the ratio of
-/// two successive changes, the error that remains is Θ/(1−Θ) of the last change.
+/// ∂f/∂y is the right-hand side's own where it has one (Rhs::jacobian; it counts as one evaluation) and is finite,
+/// else by differences, n evaluations: a part of a derivative may overflow where the function does not, as those
+/// of 1/(1 + exp(x)). The differences are taken over √ε max(|y_i|, |h f_i|, 1e-3). They have half the digits,
+/// which costs the simplified Newton method some speed of convergence but no accuracy. The forecast is that of
+/// Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8: if Θ is the ratio of two
+/// successive changes, the error that remains is Θ/(1−Θ) of the last change.
 
 #include <Eigen/Dense>
 
@@ -27,7 +28,7 @@ struct Jacobian {
         if (ends.rhs.jacobian != nullptr) {
             ends.rhs.jacobian(ends.rhs.context.get(), ends.t, ends.y.data(), values.data());
             ++ends.evaluations;
-            return;
+            if (values.allFinite()) return;
         }
         constexpr double root_epsilon = 1.4901161193847656e-8;
         moved = ends.y;

@@ -49,10 +49,11 @@ struct Options {
     /// method. It comes back where the explicit one would be stable with the same steps, or where the steps of the
     /// other turn out to cost more (cost_model.hpp).
     std::optional<Method> when_stiff = {};
-    /// Where no step is short enough, or where a power series needs steps of a twentieth of its longest though
-    /// the motion is no faster, the run goes on with this method to its end. Where a linkage lies flat, pivots of
-    /// its equations pass through zero: values beside that pose are still good, but the coefficients of a series
-    /// lose all digits as it comes close.
+    /// Where no step is short enough, as for a power series whose coefficients overflow or that is none at the
+    /// start (sqrt(t) at t = 0), the run goes on with this method to its end. So it does where the series of a
+    /// system with constraints needs steps of a twentieth of its longest though the motion is no faster. Where a
+    /// linkage lies flat, pivots of its equations pass through zero: values beside that pose are still good, but
+    /// the coefficients of a series lose all digits as it comes close.
     std::optional<Method> when_stuck = {};
     /// If the steps of an explicit method turn out to cost clearly more than those of a power series would
     /// (taylor_switch.hpp), the run goes on with this method, which must be taylor. It comes back where the steps

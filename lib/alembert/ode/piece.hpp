@@ -27,6 +27,8 @@ struct MethodSwitching {
     std::optional<Method> back = {};  ///< the explicit method to which a run that was found stiff may come back
     double effort_per_time = 0;       ///< of the explicit method; 0: not known
     long patience = 0;                ///< steps before which no stiffness is looked for
+    bool may_leave_series =
+        false;  ///< whether a series was taken because it was cheaper: until its steps are short
 };
 
 struct RunPiece {

@@ -16,9 +16,10 @@
 /// | rhs.series, with_series | taylor | taylor refuses; a run does not go over to it |
 /// | rhs.canonical | rattle, rattle8 | they refuse |
 /// | rhs.energies | a run in a time of its own (time_transformation.hpp) | it refuses |
-/// | rhs.effort | the search for stiffness, the changes of method (cost_model.hpp) | steps have no predicted cost
-/// | | project | every step | the constraints drift | | quick_times | methods that choose their steps | a step may
-/// pass over a pulse |
+/// | rhs.effort | the search for stiffness, cost_model.hpp | steps have no predicted cost |
+/// | project | every step | the constraints drift |
+/// | quick_times | methods that choose their steps | a step may pass over a pulse |
+/// | quick_places | the same methods | a step may pass over a narrow hill |
 ///
 /// An ability that is dear to make is a function (`with_…`) and is made when it is first asked for.
 
@@ -30,6 +31,7 @@
 #include "alembert/ode/methods.hpp"
 #include "alembert/ode/options.hpp"
 #include "alembert/ode/piece.hpp"
+#include "alembert/ode/quick_places.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "alembert/ode/trajectory.hpp"
 
@@ -59,8 +61,9 @@ struct System {
     Project project = {};         ///< may be empty
     /// The times at which steps have to be shorter (input_time_scales.hpp).
     std::vector<QuickTime> quick_times = {};
-    OnMethod on_method = {};  ///< may be empty
-    Integrator by = {};       ///< integrates it in place of all methods; may be empty
+    QuickPlaces quick_places = {};  ///< functions of the state that change fast somewhere (quick_places.hpp)
+    OnMethod on_method = {};        ///< may be empty
+    Integrator by = {};             ///< integrates it in place of all methods; may be empty
 };
 
 }  // namespace alembert

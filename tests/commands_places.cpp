@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Forces of places: hills, layers and kicks that are narrow beside a step. All results are held against closed
+// forms, most of them against the work: a mass that has passed a force has v²/2 = v₀²/2 + ∫ F dx, one that has
+// passed a layer of drag D(x) has v = v₀ − ∫ D dx, and one that a hill has turned back has −v₀.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "json.hpp"
+#include "program.hpp"
+
+namespace commands_places {
+
+using alembert::test::Json;
+using alembert::test::run;
+using alembert::test::simulated;
+using alembert::test::temporary;
+
+namespace {
+
+/// A function of z that is flat but for a small region, and its integral over the whole line.
+struct Shape {
+    std::string text;
+    double integral;
+};
+
+std::vector<Shape> shapes(const std::string& z) {
+    const double pi = std::acos(-1.0);
+    return {{fmt::format("exp(-{}^2)", z), std::sqrt(pi)},
+            {fmt::format("exp(-{}^4)", z), 2 * std::tgamma(1.25)},
+            {fmt::format("exp(-{}^10)", z), 2 * std::tgamma(1.1)},
+            {fmt::format("(tanh({0} + 2) - tanh({0} - 2))/2", z), 4},
+            {fmt::format("1/cosh({})", z), pi},
+            {fmt::format("1/cosh({})^2", z), 2},
+            {fmt::format("exp(-{0})/(1 + exp(-{0}))^2", z), 1}};
+}
+
+struct Random {
+    std::mt19937_64 engine;
+    double operator()(double low, double high) {
+        return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+    }
+    std::size_t below(std::size_t count) { return engine() % count; }
+};
+
+std::string mass(double v, double duration, const std::string& more) {
+    return temporary(
+        "place.toml",
+        fmt::format("[parameters]\nw = 1\n[coordinates]\nx = {{ initial = 0, rate = {} }}\n[[particle]]\n"
+                    "name = \"P\"\nmass = 1\nposition = [\"x\", 0]\n{}[simulation]\nduration = {}\n",
+                    v, more, duration));
+}
+
+double rate(const Json& result) {
+    return result["final"]["rates"]["x"].get<double>();
+}
+double place(const Json& result) {
+    return result["final"]["coordinates"]["x"].get<double>();
+}
+bool trusted(const Json& result) {
+    return result["error_estimate"]["trustworthy"].get<bool>();
+}
+
+}  // namespace
+
+TEST_CASE("simulate: no method that chooses its steps passes over a narrow hill, layer or force of a place") {
+    Random random{std::mt19937_64(67)};
+    const std::vector<std::string> methods = {"auto",   "auto",     "auto",  "auto", "taylor", "dop853",
+                                              "dopri5", "verner98", "radau", "bdf",  "abm"};
+    for (int k = 0; k < 220; ++k) {
+        const double w = std::pow(10, random(-3, -0.7)), at = random(1 + 5 * w, 6), v = random(0.5, 2);
+        const std::string z = fmt::format("((x - {})/{})", at, w);
+        const std::vector<Shape> all = shapes(z);
+        const std::size_t kind = random.below(3);
+        const Shape& shape =
+            all[random.below(all.size() - (kind == 2 ? 1 : 0))];  // the slope of the last overflows
+        std::string method = methods[random.below(methods.size())];
+        if (method == "taylor" &&
+            (shape.text.find("cosh") != std::string::npos || shape.text.find("+ exp") != std::string::npos))
+            method = "auto";  // the coefficients of their series overflow
+        const double part = random(0.2, 0.8);
+        std::string more;
+        double exact = 0;
+        if (kind == 0) {  // a force: the work is known
+            const double F = part * v * v / w * (random.below(2) == 0 ? 1 : -0.3);
+            more = fmt::format("[forces]\nx = \"{}*{}\"\n", F, shape.text);
+            exact = std::sqrt(v * v + 2 * F * w * shape.integral);
+            if (!(v * v + 2 * F * w * shape.integral > 0.04)) continue;
+        } else if (kind == 1) {  // a layer of drag
+            const double D = part * v / (w * shape.integral);
+            more = fmt::format("[forces]\nx = \"-{}*{}*x'\"\n", D, shape.text);
+            exact = (1 - part) * v;
+        } else {  // a hill that is too high
+            more = fmt::format("[energy]\npotential = \"{}*({})\"\n", (1.5 + part) * v * v, shape.text);
+            exact = -v;
+        }
+        const double slowest = std::min(v, std::abs(exact)), duration = at / v + (30 * w + 1) / slowest;
+        const Json result = simulated(mass(v, duration, more), {"--method", method});
+        CAPTURE(more);
+        CAPTURE(method);
+        CAPTURE(k);
+        CHECK(std::abs(rate(result) - exact) < 1e-5);
+        CHECK(trusted(result));
+    }
+}
+
+TEST_CASE("sweep, bench, between rows: nothing passes over a narrow force either") {
+    const std::string scene =
+        mass(1, 10, "[forces]\nx = \"0.5/w*exp(-((x - 3.3)/w)^2)\"\n");  // v² = 1 + √π, whatever w is
+    const double exact = std::sqrt(1 + std::sqrt(std::acos(-1.0)));
+    for (const char* const method : {"auto", "dop853", "verner98", "taylor"}) {
+        const auto swept = run({"sweep", scene, "--json", "--vary", "w=1e-3:0.05:12", "--method", method});
+        REQUIRE(swept.exit == 0);
+        for (const Json& row : Json::parse(swept.out)["rows"])
+            CHECK(std::abs(row["final"]["rates"]["x"].get<double>() - exact) < 1e-6);
+    }
+}
+
+TEST_CASE("simulate: a bead turns where a bump of its track uses up its energy") {
+    const std::string scene = temporary(
+        "bump.toml",
+        "gravity = [0, -9.81]\n[coordinates]\nx = { initial = 0, rate = 1 }\n[[particle]]\nname = \"bead\"\nmass "
+        "= 1\n"
+        "position = [\"x\", \"0.06*exp(-((x - 5)/0.1)^2) + 0.0005*x^2\"]\n[simulation]\nduration = 10\n");
+    for (const char* const method : {"auto", "taylor", "dop853", "dopri5", "verner98", "radau", "bdf", "abm"}) {
+        CAPTURE(method);
+        CHECK(std::abs(place(simulated(scene, {"--method", method})) - 0.53397) < 1e-5);
+    }
+}
+
+// At rest on a plain whose only hill is far away, or with a tanh that changes in time alone, steps stay long.
+TEST_CASE("simulate: functions that change little cost no steps") {
+    const Json still = simulated(mass(0, 10, "[energy]\npotential = \"exp(-((x - 3)/0.01)^2)\"\n"));
+    CHECK(still["steps"].get<int>() == 1);
+    const Json far = simulated(mass(-1, 10, "[energy]\npotential = \"exp(-((x - 3)/0.01)^2)\"\n"));
+    CHECK(far["steps"].get<int>() == 1);
+    CHECK(far["evaluations"].get<int>() < 100);
+}
+
+}  // namespace commands_places
