@@ -268,6 +268,12 @@ private:
     }
 
     void partial(const Math& math) {
+        const bool is_by_time = math.args.size() == 2 && math.text != "d" && math.args[1]->kind == Kind::letter &&
+                                math.args[1]->letter == Letter{.base = "t"};
+        if (is_by_time && how_.is_autonomous) {
+            out() += '0';
+            return;
+        }
         if (slope_of_motion(math) || partial_by_speed(math)) return;
         out() += "diff(";
         const Math& of = *math.args[0];

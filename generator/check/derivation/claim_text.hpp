@@ -53,6 +53,8 @@ struct ClaimWriting {
     bool alone_is_quantity = false;
     /// Whether ∂/∂ψ' is that of the independent rates, the constraints having been solved for the others.
     bool rates_are_speeds = false;
+    /// Whether nothing in the system changes with time by itself, so that ∂L/∂t is 0.
+    bool is_autonomous = false;
     /// Whether dx is taken along the motion: x' of both sides.
     bool differentials_are_rates = false;
     /// Whether d/dθ is taken along the motion: of θ' it is θ''/θ'.

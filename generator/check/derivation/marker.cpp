@@ -65,6 +65,11 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
       letters_(std::move(letters)),
       truth_(system.scene(), system.mechanism(), system.sheets()),
       own_(system, letters_) {
+    std::vector<ex> values = system.forces(true);
+    values.push_back(system.mechanism().lagrangian());
+    const std::vector<ex> changes = system.mechanism().explicit_time_derivative(values);
+    is_autonomous_ =
+        std::all_of(changes.begin(), changes.end(), [](const ex& change) { return change.is_zero(); });
     for (const auto& [name, value] : own_.values()) {  // nothing is stated yet
         known_[name] = value;
         truth_.know(name, value);
@@ -194,6 +199,7 @@ ClaimWriting Marker::as_written() const {
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds,
+            .is_autonomous = is_autonomous_,
             .differentials_are_rates = notes_.back().differentials_are_rates,
             .slopes_are_of_motion = notes_.back().slopes_are_of_motion};
 }
@@ -205,6 +211,7 @@ ClaimWriting Marker::as_derived() const {
             .speeds = &speeds_,
             .alone_is_quantity = notes_.back().alone_is_quantity,
             .rates_are_speeds = notes_.back().rates_are_speeds,
+            .is_autonomous = is_autonomous_,
             .differentials_are_rates = notes_.back().differentials_are_rates,
             .slopes_are_of_motion = notes_.back().slopes_are_of_motion};
 }

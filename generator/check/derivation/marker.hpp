@@ -212,6 +212,7 @@ private:
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
+    bool is_autonomous_ = false;       ///< whether nothing in the system changes with time by itself
     bool has_told_forces_ = false;     ///< whether a line has shown which forces are in Q
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
 };

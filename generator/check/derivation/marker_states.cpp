@@ -103,11 +103,7 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
     const std::vector<std::string>& coordinates = letters_.coordinates();
     if (!name || std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()) return false;
     if (!speaks_of_time(rhs)) return false;
-    const Mechanism& m = system_.mechanism();
-    std::vector<ex> values = system_.forces(true);
-    values.push_back(m.lagrangian());
-    const std::vector<ex> changes = m.explicit_time_derivative(values);
-    return std::all_of(changes.begin(), changes.end(), [](const ex& change) { return change.is_zero(); });
+    return is_autonomous_;
 }
 
 /// "Set α' = 0", "in steady rotation α' = α'' = 0", or the whole chain of rates that is set to zero.

@@ -114,7 +114,8 @@ bool speaks_of_first_order(std::string_view words) {
         "ausschl*|kleinen ausschl*|kleiner ausschl*|linearisier*|oscilaciones pequeñas|pequeñas "
         "oscilaciones|pequeño|"
         "pequeños ángulos|ángulos pequeños|aproximación lineal|linealiz*|petites oscillations|petits angles|"
-        "linéaris*|near theta|near the bottom|close to the equilibrium|close to equilibrium|small angles|petit*|"
+        "linéaris*|near theta|near the bottom|near the vertex|near the top|near the lowest|near the origin|close "
+        "to the equilibrium|close to equilibrium|small angles|petit*|"
         "pequeñas*|ángulos pequeños";
     const std::string lower = in_lower_case(words);
     for (std::size_t begin = 0; begin < lower.size();) {

@@ -63,10 +63,10 @@ std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const st
 /// multiplied.
 void put_pivots(Program& program, std::vector<int>& pivots, const Mechanism& m, const Equations& equations,
                 const MotionMatrix& matrix) {
-    const auto& [K, tied, witness] = matrix;
+    const std::vector<const Mechanism::Constraint*>& tied = matrix.tied;
     const std::vector<int> kept = equations.kept(m);
     const int s = equations.size(), all = s + static_cast<int>(kept.size() + tied.size());
-    const std::vector<int> divided = later_pivots(program, K, all, s, witness);
+    const std::vector<int> divided = later_pivots(program, matrix.K, all, s, matrix.witness);
     for (std::size_t k = 0; k < kept.size(); ++k)
         pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
     for (std::size_t k = 0; k < tied.size() && !divided.empty(); ++k) {
@@ -80,7 +80,6 @@ void put_pivots(Program& program, std::vector<int>& pivots, const Mechanism& m, 
 
 void add_projection(Program& program, const Mechanism& m, const Equations& equations, const MotionMatrix& matrix,
                     bool fold) {
-    const auto& [K, tied, witness] = matrix;
     const bool own_speeds = !equations.speeds_are_rates();
     const std::size_t n = m.q.size(), s = equations.u.size();
     const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
@@ -98,7 +97,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     const auto solve = [&](const std::vector<int>& right) {
         std::vector<int> sides(s, program.number(0));
         sides.insert(sides.end(), right.begin(), right.end());
-        return *solve_symmetric(program, K, sides, static_cast<int>(s), witness);
+        return *solve_symmetric(program, matrix.K, sides, static_cast<int>(s), matrix.witness);
     };
     const auto row_of = [&](std::size_t k) { return own_speeds ? m.constraints[kept[k]].row : equations.A[k]; };
     const bool only_norms = !own_speeds && across.empty() &&
@@ -116,7 +115,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         for (std::size_t k = 0; k < least->pivots.size(); ++k) pivots[by_rows[k]] = least->pivots[k];
     } else {
         for (const int c : kept) misfit.push_back(position[c]);
-        for (const Mechanism::Constraint* c : tied) misfit.push_back(here(c->position.value_or(0)));
+        for (const Mechanism::Constraint* c : matrix.tied) misfit.push_back(here(c->position.value_or(0)));
         off = solve(misfit);
         off.resize(s);
         std::vector<std::vector<int>> columns;
@@ -142,7 +141,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
             for (std::size_t k = 0; k < kept.size(); ++k) rows.push_back(lowered(there, row_of(k)));
             if (const auto least = least_change(program, rows, misfit)) change = least->change;
         } else {
-            for (const Mechanism::Constraint* c : tied)
+            for (const Mechanism::Constraint* c : matrix.tied)
                 misfit.push_back(dot(program, lowered(there, c->row), rates, there(c->drift)));
             change = solve(misfit);
         }
