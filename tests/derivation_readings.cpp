@@ -361,6 +361,18 @@ TEST_CASE("readings: bodies in the author's order, components and forces of his 
     CHECK(statuses(bars, "In equilibrium. We find $$\\tan\\frac\\theta2 = \\frac{P}{mg}$$") == "M");
 }
 
+TEST_CASE("readings: two equations in one line of text, limits, laws of time, forces that share a letter with T") {
+    CHECK(statuses(pendulum, "T = 1/2 m l^2 θ'^2      V = -m g l cos θ\n\nand so it goes", "test.txt") == "RR");
+    CHECK(statuses(pendulum, "T    = 1/2 m l^2 θ'^2\nV    =   m g l cos θ\n\nas it should be here", "test.txt") ==
+          "RM");
+    CHECK(statuses(pendulum, "Since $\\partial L/\\partial t = 0$ the energy $T + V$ is constant.") == "R");
+    CHECK(statuses(pendulum, "For $l\\to 0$ the formula reduces to $\\ddot\\theta = 0$.") == "-");
+    const std::string yo_yo = test::textbook_text("yo_yo");
+    CHECK(statuses(yo_yo,
+                   "$m\\ddot y = T - m g$, $J\\ddot\\theta = b T$, $T = m(g + \\ddot h + b\\ddot\\theta)$, "
+                   "$(J - m b^2)\\ddot\\theta = m b(g + \\ddot h)$") == "RRMF");
+}
+
 // What is heard in one language is heard in the others.
 // Words that a person writes beside his lines excuse none that is wrong.
 TEST_CASE("readings: ordinary prose hides no wrong line") {

@@ -9,6 +9,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
 #include "check/written/words.hpp"
+#include "model/energy.hpp"
 
 namespace alembert {
 
@@ -68,8 +69,9 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
     std::vector<ex> values = system.forces(true);
     values.push_back(system.mechanism().lagrangian());
     const std::vector<ex> changes = system.mechanism().explicit_time_derivative(values);
-    is_autonomous_ =
-        std::all_of(changes.begin(), changes.end(), [](const ex& change) { return change.is_zero(); });
+    is_autonomous_ = std::all_of(changes.begin(), changes.end(), [&](const ex& change) {
+        return is_identically_zero(system.mechanism().z->name(change), system.mechanism());
+    });
     for (const auto& [name, value] : own_.values()) {  // nothing is stated yet
         known_[name] = value;
         truth_.know(name, value);

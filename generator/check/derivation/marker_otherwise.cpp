@@ -24,8 +24,16 @@ bool Marker::is_of_quantity(MarkedLine& line, const Sides& sides) {
         return quantity && known_.contains(*quantity) && quantity != letters_.name_of(side.letter);
     };
     if (!differs(*sides.lhs) && !differs(*sides.rhs)) return false;
+    const LineNotes before = notes_.back();
+    MarkedLine other = line;
     notes_.back().alone_is_quantity = true;
-    judge_pair(line, *sides.lhs, *sides.rhs);
+    judge_pair(other, *sides.lhs, *sides.rhs);
+    const bool is_force = is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs);  // no energy
+    if (other.status == LineStatus::mistake && is_force) {
+        notes_.back() = before;
+        return false;
+    }
+    line = std::move(other);
     return true;
 }
 

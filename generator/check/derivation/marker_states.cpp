@@ -61,7 +61,9 @@ void Marker::hear_conditions(const std::string& words) {
     if (ends_sentence(words)) under_condition_ = 0;
     const std::size_t from = statement_->offset > 60 ? statement_->offset - 60 : 0;
     const std::string behind = written_.text.substr(from, statement_->offset - from);
-    const bool has_limit = behind.find("\\infty") != std::string::npos || behind.find("∞") != std::string::npos;
+    static constexpr const char* limits[] = {"\\infty", "∞", "\\to 0", "\\to0", "→ 0", "→0", "\\rightarrow 0"};
+    const bool has_limit = std::any_of(std::begin(limits), std::end(limits),
+                                       [&](const char* limit) { return behind.find(limit) != std::string::npos; });
     if (has_limit || speaks_of_special_motion(words) || states_condition(words))
         under_condition_ = lines_of_condition;
     speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);

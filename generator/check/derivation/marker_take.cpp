@@ -80,6 +80,9 @@ void Marker::take_in_as(const Math& what, const Math& value) {
         if (!wrong) wrong = lines.size() - 1;
     }
     if (is_name) {
+        const ex before = own_.value(name.text);  // J θ'' = b T has determined it, T = m (g + b θ'') states it
+        if (differs && is_false(status) && system_.mechanism().z->depends(before, system_.mechanism().qddot))
+            own_.add_equation(rows.row(before - stated), lines.size() - 1, true, speaks_of_small_);
         own_.state(name.text, stated, wrong);
         if (what.kind == Kind::letter && what.letter.base == "H")
             hold_momenta(name.text, claim_text(value, as_written()), text, wrong);

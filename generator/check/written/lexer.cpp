@@ -12,6 +12,7 @@ namespace alembert {
 namespace {
 
 constexpr int most_replaced_within = 40;
+constexpr std::size_t wide_gap = 3;  // blanks between two equations of one line of plain text
 
 bool is_latin(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -29,7 +30,11 @@ WrittenLexer::WrittenLexer(std::string_view text, std::size_t offset, WrittenNot
 
 void WrittenLexer::run() {
     while (at_ < text_.size()) {
+        const std::size_t begin = at_;
         is_tight_ = !skip_space() && (at_ > 0 || is_fixed_);
+        const bool is_gap = is_plain() && at_ >= begin + wide_gap && at_ < text_.size() && begin > 0 &&
+                            text_.substr(begin, at_ - begin).find('\n') == std::string_view::npos;
+        if (is_gap) add(Kind::space, begin);  // T = …      V = … in one line
         if (at_ < text_.size()) next();
     }
 }

@@ -172,7 +172,8 @@ bool speaks_of_special_motion(std::string_view words) {
     return has_phrase(last_sentence(words),
                       "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
                       "for steady rotation|in steady rotation|at a steady speed|at steady speed|stationär mit|"
-                      "im stationären zustand|relative equilibrium*|regelmäßige präzession|reguläre "
+                      "im stationären zustand|relative equilibrium*|regelmäßige präzession|regelmäßiger "
+                      "präzession|regulärer präzession|reguläre "
                       "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
                       "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
                       "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
