@@ -373,6 +373,27 @@ TEST_CASE("readings: two equations in one line of text, limits, laws of time, fo
                    "$(J - m b^2)\\ddot\\theta = m b(g + \\ddot h)$") == "RRMF");
 }
 
+// What a condition, a root, a pose or a special value excuses is what it governs, and nothing else.
+TEST_CASE("readings: what is assumed ends where it is said to end") {
+    const std::string rods = test::textbook_text("struck_rods"),
+                      turning = test::textbook_text("bead_on_turning_circle");
+    CHECK(statuses(rods, "$$V = 7 m g l\\sin\\theta_1$$") == "M");
+    CHECK(statuses(rods, "The blow comes from the left. $$V = 7 m g l\\sin\\theta_1$$") == "M");
+    CHECK(statuses(rods,
+                   "Before the impact all rests. $$T = \\frac23 m l^2\\dot\\theta_1^2 + \\frac16 m "
+                   "l^2\\dot\\theta_2^2 + \\frac12 m l^2\\dot\\theta_1\\dot\\theta_2$$") == "R");
+    CHECK(statuses(test::textbook_text("cartesian_pendulum"), "$$y = \\sqrt{l^2 - x^2}$$") !=
+          "R");  // it hangs below
+    CHECK(statuses(pendulum, "$$l\\dot\\theta\\sqrt2 = -\\sqrt2\\, l\\dot\\theta$$") == "M");
+    CHECK(statuses(turning, "In the special case $\\Omega = 0$ the bead is free: $\\ddot\\theta = 0$.") == "-R");
+    CHECK(statuses(turning,
+                   "In the special case $\\Omega = 0$ the bead is free. In general $$\\ddot\\theta = 0$$") ==
+          "-M");
+    CHECK(statuses(turning, "Let $\\Omega = 0$ first.\n\n## The general case\n\n$$\\ddot\\theta = 0$$") == "-M");
+    CHECK(statuses(pendulum, "For $t\\to\\infty$ nothing is lost. The equation is $\\ddot\\theta = 0$") != "-");
+    CHECK(statuses(test::textbook_text("central_force"), "In equilibrium $$r = 7$$") != "R");
+}
+
 // What is heard in one language is heard in the others.
 // Words that a person writes beside his lines excuse none that is wrong.
 TEST_CASE("readings: ordinary prose hides no wrong line") {

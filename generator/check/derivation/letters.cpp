@@ -105,6 +105,11 @@ std::optional<MechanicalQuantity> quantity_of(const Letter& letter) {
     return std::nullopt;
 }
 
+bool is_letter_of_constant(const Letter& letter) {
+    const bool is_number = letter.index.find_first_not_of("0123456789") == std::string::npos;
+    return is_one_of(letter.base, {"C", "c", "h"}) && is_number && letter.accent.empty();
+}
+
 std::string plain_word(const std::string& text) {
     std::string result;
     for (const char c : text)

@@ -29,6 +29,9 @@ enum class MechanicalQuantity { kinetic, potential, lagrangian, energy, hamilton
 /// The letter as mechanics' own; nothing if it is none: T, K, E_k; V, U, E_p; L; E; H; p_q; Q_q.
 std::optional<MechanicalQuantity> quantity_of(const Letter& letter);
 
+/// C, c_1, h: a constant of integration.
+bool is_letter_of_constant(const Letter& letter);
+
 /// Letters and digits of a text in small letters: what two spellings of a name share.
 std::string plain_word(const std::string& text);
 

@@ -8,6 +8,7 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
+#include "check/written/surroundings.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
 
@@ -17,35 +18,6 @@ using GiNaC::ex;
 using Kind = Math::Kind;
 
 namespace {
-
-/// What goes on behind a formula until its sentence, its line or the next formula ends: "is conserved".
-std::string words_behind(const Written& written, const WrittenStatement& statement) {
-    constexpr std::size_t most = 80;
-    std::size_t begin = statement.offset + statement.length;
-    if (begin >= written.text.size()) return {};
-    std::string rest = written.text.substr(begin, most);
-    const std::size_t opened = rest.find_first_not_of("$ \n)\\");
-    if (opened == std::string::npos) return {};
-    rest.erase(0, opened);
-    std::size_t end = rest.find_first_of("$.\n\\;");
-    for (const char* const stop : {"。", "；"}) end = std::min(end, rest.find(stop));
-    return rest.substr(0, end);
-}
-
-/// "… at $y = -l$": the formula behind it is its condition.
-bool is_conditioned_behind(const Written& written, const WrittenStatement& statement) {
-    const std::size_t end = statement.offset + statement.length;
-    const std::size_t open =
-        written.text.find('$', std::min(written.text.find_first_not_of("$ ", end), written.text.size()));
-    if (open == std::string::npos || open > end + 24) return false;
-    const std::size_t close = written.text.find('$', open + 1);
-    if (close == std::string::npos || close > open + 80) return false;
-    std::string words = written.text.substr(end, open - end);
-    std::erase_if(words, [](char c) { return c == '$' || c == ' ' || c == ',' || c == '\n'; });
-    static const std::set<std::string> conditions{"at",  "when", "if", "for", "bei", "falls", "wenn",
-                                                  "für", "在",   "当", "en",  "si",  "pour"};
-    return conditions.contains(words) && written.text.substr(open, close - open).find('=') != std::string::npos;
-}
 
 bool is_rate_alone(const Math& side) {
     return (side.kind == Kind::letter && side.dots == 1) ||
@@ -101,6 +73,7 @@ void Marker::run() {
         said_ = statement_->words + " " + words_after_;
         conditioned_behind_ = is_conditioned_behind(written_, *statement_);
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
+        if (speaks_of_general_case(statement_->words)) special_values_.clear();
         speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
                            speaks_of_first_order(words_after_);  // … for small angles
         hear(statement_->words);

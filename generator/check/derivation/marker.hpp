@@ -192,7 +192,7 @@ private:
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
          speaks_of_period_ = false, speaks_of_roots_ = false, introduces_symbols_ = false,
-         speaks_of_gibbs_ = false, speaks_of_impact_ = false;
+         speaks_of_gibbs_ = false, speaks_of_impact_ = false, mentions_impact_ = false;
     const WrittenStatement* statement_ = nullptr;
     std::string words_after_, said_;    ///< behind the statement, and with those before it
     std::vector<BaseState> own_bases_;  ///< θ = π + ε: about which the author deviates

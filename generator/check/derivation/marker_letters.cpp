@@ -100,13 +100,13 @@ void Marker::hear(const std::string& words) {
         });
     };
     at_rest_of_rates_ = says({"q'' = 0"});
-    speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
-    speaks_of_period_ = says({"period", "Period", "周期"});
+    speaks_of_frequency_ = speaks_of_frequency(words);
+    speaks_of_period_ = speaks_of_period(words);
     speaks_of_roots_ = says({"with the roots", "其根"});
     goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
     speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || alembert::speaks_of_rest(words);
-    is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words) || says({"steady", "Steady", "稳态", "stationär"});
-    speaks_of_axes_ = speaks_of_axes_ || says({" axis", " axes", "轴", "achse", "坐标系", " eje"});
+    is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words);
+    speaks_of_axes_ = speaks_of_axes_ || speaks_of_axes(words);
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }

@@ -4,6 +4,7 @@
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "base/language/say.hpp"
 #include "check/written/words.hpp"
@@ -22,23 +23,17 @@ bool holds_derivative(const Math& math) {
                        [](const MathPtr& arg) { return holds_derivative(*arg); });
 }
 
-/// √(…) with factors before it.
-bool is_root_sign(const Math& math) {
-    if (math.kind == Kind::call) return math.text == "sqrt";
+/// √(…) with factors before it; what stands under it is no number, as in √2 m.
+bool is_root_sign(const Math& math, const std::function<bool(const Math&)>& may_change) {
+    if (math.kind == Kind::call) return math.text == "sqrt" && may_change(*math.args[0]);
     const bool is_factor = math.kind == Kind::product || math.kind == Kind::negate || math.kind == Kind::quotient;
-    return is_factor &&
-           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_root_sign(*arg); });
+    return is_factor && std::any_of(math.args.begin(), math.args.end(),
+                                    [&](const MathPtr& arg) { return is_root_sign(*arg, may_change); });
 }
 
 bool holds_root(const Math& math) {
     return (math.kind == Kind::call && math.text == "sqrt") ||
            std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return holds_root(*arg); });
-}
-
-/// … = C, c_1, h: a constant of integration.
-bool is_letter_of_constant(const Letter& letter) {
-    const bool is_number = letter.index.find_first_not_of("0123456789") == std::string::npos;
-    return (letter.base == "C" || letter.base == "c" || letter.base == "h") && is_number && letter.accent.empty();
 }
 
 }  // namespace
@@ -85,7 +80,16 @@ bool Marker::is_on_branch(MarkedLine& line, const Sides& sides) {
             return true;
         }
     }
-    if (!is_root_sign(*sides.lhs) && !is_root_sign(*sides.rhs)) return false;
+    const auto may_change = [&](const Math& math) {
+        std::map<Letter, int> all;
+        collect_letters(math, all);
+        return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+            const auto name = letters_.name_of(item.first);
+            return !name || !letters_.is_of_scene(*name) || letters_.moves(*name);
+        });
+    };
+    if (!is_root_sign(*sides.lhs, may_change) && !is_root_sign(*sides.rhs, may_change)) return false;
+    if (!holds_rates(*sides.lhs) && !holds_rates(*sides.rhs)) return false;  // a place has the sign that it has
     const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text);
     const ex difference = GiNaC::pow(left, 2) - GiNaC::pow(right, 2);
     MotionRows& rows = system_.rows();

@@ -261,7 +261,7 @@ void Marker::note_reduced(const Sides& sides, const MotionRow& row) {
 /// V = … + const: right if the constant is one.
 bool Marker::is_constant_of_potential(MarkedLine& line, const Sides& sides, const Letter& letter,
                                       const ex& value) {
-    const bool is_name = is_word_for_constant(letter.base) || letter.base == "C" || letter.base == "c" ||
+    const bool is_name = is_word_for_constant(letter.base) || is_letter_of_constant(letter) ||
                          (letter.base == "V" && letter.index == "0") ||
                          (letter.base == "U" && letter.index == "0");
     const std::string V = letters_.name_of(MechanicalQuantity::potential);

@@ -241,9 +241,10 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
         const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
         const auto& other = verdicts[0].other_branch;
         const bool on_a_branch = other && other->verdict == Verdict::proved;
-        if (verdicts[0].verdict == Verdict::undecided && !on_a_branch) {
+        const bool is_vacuous = verdicts[0].verdict == Verdict::vacuous;
+        if ((is_vacuous || verdicts[0].verdict == Verdict::undecided) && !on_a_branch) {
             line.status = LineStatus::undecided;
-            line.reason = say("it could not be evaluated");
+            line.reason = is_vacuous ? say("no state of rest was found") : say("it could not be evaluated");
             notes_.back().claim = {};
             return true;
         }

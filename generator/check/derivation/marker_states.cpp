@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "base/language/say.hpp"
+#include "check/written/surroundings.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
 #include "model/formalism/elements.hpp"
@@ -59,14 +60,10 @@ bool are_rates_at_rest(const Math& lhs, const Math& rhs) {
 void Marker::hear_conditions(const std::string& words) {
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
-    const std::size_t from = statement_->offset > 60 ? statement_->offset - 60 : 0;
-    const std::string behind = written_.text.substr(from, statement_->offset - from);
-    static constexpr const char* limits[] = {"\\infty", "∞", "\\to 0", "\\to0", "→ 0", "→0", "\\rightarrow 0"};
-    const bool has_limit = std::any_of(std::begin(limits), std::end(limits),
-                                       [&](const char* limit) { return behind.find(limit) != std::string::npos; });
-    if (has_limit || speaks_of_special_motion(words) || states_condition(words))
+    if (is_limit(written_, *statement_) || speaks_of_special_motion(words) || states_condition(words))
         under_condition_ = lines_of_condition;
     speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
+    mentions_impact_ = mentions_impact_ || mentions_impact(said_);
     from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
 }
 
@@ -161,7 +158,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (says_rest() && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
         judge_pair(line, lhs, rhs);
         if (is_right(line.status)) return true;
-        line = MarkedLine(before);
+        line = before;
         notes_.back() = {};
     }
     if (states_special_case(lhs, rhs, all) && !is_parameter_identity(lhs, rhs)) {
@@ -215,9 +212,10 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
 }
 
-/// Lines about an impact may be written for the pose in which it happens.
+/// Velocities, displacements and energies of an impact may be written for the pose in which it happens.
 bool Marker::holds_at_pose(const Sides& sides) {
-    if (system_.scene().impulses.empty()) return false;
+    const bool is_of_motion = displacements_ != nullptr || holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
+    if (system_.scene().impulses.empty() || !is_of_motion) return false;
     const Mechanism& m = system_.mechanism();
     GiNaC::exmap pose;
     for (const Coordinate& c : system_.scene().coordinates)
@@ -230,7 +228,7 @@ bool Marker::holds_at_pose(const Sides& sides) {
 
 /// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.
 bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
-    if (holds_at_pose(sides)) {
+    if (mentions_impact_ && holds_at_pose(sides)) {
         line.status = LineStatus::right;
         line.reason = say("at the pose of the impact");
         notes_.back().claim = {};

@@ -189,8 +189,8 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
         });
         const std::string& words = written_.statements[lines[k].statement].words;
         const auto [left, right] = pair_of(written_, lines, k);
-        const bool is_integral = letter && (letter->base == "C" || letter->base == "c" || letter->base == "h") &&
-                                 right != nullptr && alone_in(*right) != nullptr;  // … = C
+        const bool is_integral =
+            letter && is_letter_of_constant(*letter) && right != nullptr && alone_in(*right) != nullptr;  // … = C
         const bool is_told = speaks_of_conservation(words) || speaks_of_frequency(words) || is_integral;
         if (!letter || !letter->index.empty() || bears_out || is_told || uses(lines, k, *letter).all > 0) continue;
         lines[k].status = LineStatus::undecided;

@@ -204,6 +204,8 @@ bool speaks_of_rest(std::string_view words) {
 
 bool mentions_rest(std::string_view words) {
     const std::string lower = in_lower_case(words);
+    if (has_phrase(lower, "steady motion*|steady state|steady rotation|steadily|稳态*|stationären zustand"))
+        return true;
     for (std::size_t begin = 0; begin < lower.size();) {
         const std::size_t end = end_of_first_sentence(lower, begin);
         if (is_of_rest(lower.substr(begin, end - begin))) return true;
@@ -226,6 +228,12 @@ bool speaks_of_impact(std::string_view words) {
         "collision|after the blow|after the impulse|just after|"
         "immediately after|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
         "unmittelbar nach");
+}
+
+bool mentions_impact(std::string_view words) {
+    return speaks_of_impact(words) ||
+           has_phrase(in_lower_case(words),
+                      "impact*|impulse*|collision*|blow|struck|冲击*|冲量*|碰撞*|撞击*|打击*|stoß*|kraftstoß");
 }
 
 bool speaks_of_angular_momentum(std::string_view words) {
@@ -300,9 +308,26 @@ bool ends_with_near(std::string_view words) {
 }
 
 bool speaks_of_frequency(std::string_view words) {
-    return has_phrase(
-        in_lower_case(words),
-        "frequenc*|频率*|frequenz*|kreisfrequenz|eigenfrequenz*|period|周期*|frecuencia*|fréquence*");
+    return has_phrase(in_lower_case(words),
+                      "frequenc*|mode|modes|频率*|frequenz*|kreisfrequenz*|eigenfrequenz*|eigenkreisfrequenz*|"
+                      "frecuencia*|fréquence*|pulsation*");
+}
+
+bool speaks_of_period(std::string_view words) {
+    return has_phrase(in_lower_case(words), "period*|周期*|schwingungsdauer|periodo|período|période");
+}
+
+bool speaks_of_axes(std::string_view words) {
+    return has_phrase(in_lower_case(words), "axis|axes|achse*|eje|ejes|axe") ||
+           words.find("轴") != std::string_view::npos || words.find("坐标系") != std::string_view::npos;
+}
+
+bool speaks_of_general_case(std::string_view words) {
+    return words.find('#') != std::string_view::npos ||
+           has_phrase(
+               in_lower_case(words),
+               "in general|in the general case|general case|from now on|now let|for all values|一般情形*|一般地*|"
+               "allgemein*|im allgemeinen|en general|en général");
 }
 
 bool ends_at_place(std::string_view words) {

@@ -34,7 +34,7 @@ bool speaks_of_special_case(std::string_view words);
 /// which something is measured.
 bool speaks_of_rest(std::string_view words);
 
-/// "In equilibrium. We find": any of the sentences speaks of rest.
+/// "In equilibrium. We find": any of the sentences speaks of rest, or of steady motion.
 bool mentions_rest(std::string_view words);
 
 /// "steady motion", "conical pendulum": the motions of which the last sentence speaks are special ones.
@@ -45,6 +45,9 @@ bool speaks_of_start_from_rest(std::string_view words);
 
 /// "after the impact": what follows holds just after impulses.
 bool speaks_of_impact(std::string_view words);
+
+/// "Before the impact", "the blow": the text is about one.
+bool mentions_impact(std::string_view words);
 
 bool speaks_of_angular_momentum(std::string_view words);
 
@@ -69,8 +72,17 @@ bool speaks_of_motion_of(std::string_view words, const std::string& name);
 /// "near", "close to" before a formula: what follows holds to first order about the state that it describes.
 bool ends_with_near(std::string_view words);
 
-/// "The natural frequency", "period".
+/// "The natural frequency", "mode".
 bool speaks_of_frequency(std::string_view words);
+
+/// "The period".
+bool speaks_of_period(std::string_view words);
+
+/// "The y axis points downwards": the author has laid axes of his own.
+bool speaks_of_axes(std::string_view words);
+
+/// "In general", a new heading: values of parameters that were stated before hold no longer.
+bool speaks_of_general_case(std::string_view words);
 
 /// "At the lowest point," before a formula: it describes the state there.
 bool ends_at_place(std::string_view words);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What stands in the text around a statement: conditions that come behind the formula, limits before it.
+
+#include <string>
+
+#include "check/written/read.hpp"
+
+namespace alembert {
+
+/// What goes on behind a formula until its sentence, its line or the next formula ends: "is conserved".
+std::string words_behind(const Written& written, const WrittenStatement& statement);
+
+/// Whether the formula behind it is its condition: "… at $y = -l$".
+bool is_conditioned_behind(const Written& written, const WrittenStatement& statement);
+
+/// Whether its sentence has taken a limit before it: "for $M\to\infty$ we get …".
+bool is_limit(const Written& written, const WrittenStatement& statement);
+
+}  // namespace alembert
