@@ -394,6 +394,39 @@ TEST_CASE("readings: what is assumed ends where it is said to end") {
     CHECK(statuses(test::textbook_text("central_force"), "In equilibrium $$r = 7$$") != "R");
 }
 
+TEST_CASE("readings: a scope ends with words of motion, of the general case, or with the sentence") {
+    const std::string rods = test::textbook_text("struck_rods"), belt = test::textbook_text("belt_drive"),
+                      coupled = test::textbook_text("coupled_pendulums"),
+                      wedge = test::textbook_text("block_on_wedge");
+    CHECK(statuses(rods,
+                   "Just after the impulse $\\dot\\theta_1=\\frac{3S}{7ml}$. During the swing the rates keep the "
+                   "ratio $\\dot\\theta_2=2\\dot\\theta_1$") == "RM");
+    CHECK(
+        statuses(belt,
+                 "For $J_1=J_2$ the rotors are equal. For unequal rotors, $J_1\\ddot\\theta_2=2kr_2(r_1\\theta_1-"
+                 "r_2\\theta_2)$") == "-M");
+    CHECK(statuses(pendulum, "Let $g = 0$. Nothing pulls. Then $\\ddot\\theta = 0$") == "--");
+    CHECK(statuses(hoop,
+                   "In relative equilibrium $\\cos\\theta=g/(R\\Omega^2)$. During every motion we have "
+                   "$R\\Omega^2\\sin\\theta\\cos\\theta=g\\sin\\theta$") == "RM");
+    CHECK(statuses(hoop, "Small oscillations off the axis have the frequency $\\omega=\\sqrt{g/R-\\Omega^2}$") ==
+          "-");
+    CHECK(statuses(coupled,
+                   "Small oscillations, both in phase, have the frequency $\\omega=\\sqrt{g/l+2kh^2/(ml^2)}$") ==
+          "-");
+    const std::string linear = "$ml^2\\ddot\\theta_1+(mgl+kh^2)\\theta_1-kh^2\\theta_2=0$";
+    CHECK(statuses(coupled, "For small angles " + linear + ". Für beliebig große Ausschläge gilt " + linear) ==
+          "RM");
+    CHECK(statuses(
+              wedge,
+              "From rest the energy gives $\\dot s=\\sqrt{\\frac{2(M+m)gs\\sin\\alpha}{M+m\\sin^2\\alpha}}$. The "
+              "acceleration is $\\ddot s=7g$") == "-M");
+    CHECK(statuses(
+              test::textbook_text("bead_on_parabola"),
+              "$$\\frac12m(1+4c^2r^2)\\dot r^2-\\frac12m\\omega^2r^2+mgcr^2=h$$\nso $\\dot r^2=\\frac{2h/m-(2gc-"
+              "\\omega^2)r^2}{1+4c^2r^2}$") == "RR");  // 2h/m is no number of hours
+}
+
 // What is heard in one language is heard in the others.
 // Words that a person writes beside his lines excuse none that is wrong.
 TEST_CASE("readings: ordinary prose hides no wrong line") {

@@ -360,6 +360,11 @@ Lone lone_letter(const Math& side) {
     return is_square ? Lone{side.args[0].get(), 2} : Lone{};
 }
 
+bool holds_root(const Math& math) {
+    return (math.kind == Math::Kind::call && math.text == "sqrt") ||
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return holds_root(*arg); });
+}
+
 bool is_accelerated(const Math& math) {
     return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(),
                                         [](const MathPtr& arg) { return is_accelerated(*arg); });

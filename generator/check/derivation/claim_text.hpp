@@ -64,6 +64,9 @@ struct ClaimWriting {
 /// Throws NoMeaning.
 ClaimText claim_text(const Math& math, const ClaimWriting& writing);
 
+/// Whether a root stands in it.
+bool holds_root(const Math& math);
+
 /// Whether an acceleration stands in it.
 bool is_accelerated(const Math& math);
 

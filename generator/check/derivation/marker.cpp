@@ -74,6 +74,7 @@ void Marker::run() {
         conditioned_behind_ = is_conditioned_behind(written_, *statement_);
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
         if (speaks_of_general_case(statement_->words)) special_values_.clear();
+        is_case_settled_ = is_case_settled_ || holds_sentence(statement_->words);
         speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
                            speaks_of_first_order(words_after_);  // … for small angles
         hear(statement_->words);

@@ -94,6 +94,7 @@ private:
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
     bool is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
+    void define_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
@@ -127,7 +128,8 @@ private:
     bool is_on_branch(MarkedLine& line, const Sides& sides);
     bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned);
     void take_in_special_case(const Math& lhs, const Math& rhs);
-    bool holds_in_special_case(const Math& lhs, const Math& rhs);
+    bool follows_in_special_case(const GiNaC::ex& residual);
+    void settle_in_special_case(MarkedLine& line);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
@@ -208,7 +210,8 @@ private:
     bool conditioned_behind_ = false;             ///< whether the formula is followed by "at y = −l"
     int under_condition_ = 0;                     ///< how many lines the condition that the words state may govern
     GiNaC::exmap special_values_;                 ///< of parameters, as the derivation states them
-    std::set<std::string> kept_;  ///< names of constants of the motion that are momenta, or written as such
+    bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
+    std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word

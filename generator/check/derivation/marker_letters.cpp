@@ -105,6 +105,7 @@ void Marker::hear(const std::string& words) {
     speaks_of_roots_ = says({"with the roots", "其根"});
     goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
     speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || alembert::speaks_of_rest(words);
+    if (speaks_of_motion(words)) is_rest_assumed_ = speaks_of_impact_ = false;
     is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words);
     speaks_of_axes_ = speaks_of_axes_ || speaks_of_axes(words);
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});

@@ -31,11 +31,6 @@ bool is_root_sign(const Math& math, const std::function<bool(const Math&)>& may_
                                     [&](const MathPtr& arg) { return is_root_sign(*arg, may_change); });
 }
 
-bool holds_root(const Math& math) {
-    return (math.kind == Kind::call && math.text == "sqrt") ||
-           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return holds_root(*arg); });
-}
-
 }  // namespace
 
 /// d/dt of something written, or the rate of a quantity that the derivation has named.
@@ -117,6 +112,10 @@ bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, co
     const bool is_integral = turned && statement_->displayed && is_letter_of_constant(letter);
     if (!(is_said || is_integral) || !m.z->depends(value, m.qdot)) return false;
     if (m.z->depends(value, m.qddot)) return false;
+    if (follows_in_special_case(m.time_derivative({value})[0])) {
+        settle_in_special_case(line);
+        return true;
+    }
     line.status = LineStatus::mistake;
     line.reason = say("it does not keep its value");
     return true;
@@ -133,18 +132,20 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
     try {
         const ex name = truth_.value(claim_text(letter, as_written()).text);
         const ex value = truth_.value(claim_text(other, as_written()).text);
-        if (GiNaC::is_a<GiNaC::symbol>(name)) special_values_[name] = value;
+        if (!GiNaC::is_a<GiNaC::symbol>(name)) return;
+        special_values_[name] = value;
+        const bool is_datum =
+            GiNaC::is_a<GiNaC::numeric>(system_.mechanism().z->expand(value)) && !value.is_zero();
+        if (!is_datum) is_case_settled_ = false;  // k = 40 N/m holds for the whole page
     } catch (const NoMeaning&) {
         under_condition_ = lines_of_condition;
     }
 }
 
 /// Whether the line follows from the equations of motion for the values that the derivation has stated.
-bool Marker::holds_in_special_case(const Math& lhs, const Math& rhs) {
+bool Marker::follows_in_special_case(const ex& residual) {
     if (special_values_.empty()) return false;
     const Mechanism& m = system_.mechanism();
-    const ex residual =
-        truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
     std::vector<ex> all{residual};
     for (int i = 0; i < m.size(); ++i) all.push_back(system_.motion_residual(i));
     std::vector<ex> special;
@@ -171,6 +172,16 @@ bool Marker::holds_in_special_case(const Math& lhs, const Math& rhs) {
         if (parts.size() == special.size() && follow(parts, false)) return true;
     }
     return false;
+}
+
+/// Right for these values; not judged where a sentence has ended since they were stated.
+void Marker::settle_in_special_case(MarkedLine& line) {
+    line.status = is_case_settled_ ? LineStatus::not_about_scene : LineStatus::right;
+    line.reason =
+        is_case_settled_
+            ? say("it holds for values of parameters that stand above; whether they are still meant is not said")
+            : say("for the values of parameters that the derivation states");
+    notes_.back().claim = {};
 }
 
 }  // namespace alembert

@@ -8,6 +8,7 @@
 #include "algebra/notation/readable.hpp"
 #include "base/language/say.hpp"
 #include "check/frequency.hpp"
+#include "check/written/words.hpp"
 #include "model/energy.hpp"
 #include "model/formalism/elements.hpp"
 
@@ -45,6 +46,12 @@ bool is_energy_alone(const Math& side) {
 
 }  // namespace
 
+/// The letter is that of a frequency of which nothing is judged.
+void Marker::define_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
+    if (!letters_.name_of(letter.letter)) define(line, letter, rhs, power);
+    line.status = LineStatus::undecided;
+}
+
 /// ω² = g/l, T = 2π √(l/g): a letter for a frequency or a period, in parameters. Judged if the words say so, or
 /// once the derivation has linearized; before that, ω₀² = g/l only gives a name.
 bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
@@ -75,13 +82,19 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
             known = false;  // where the inertia matrix is singular any value is one
             continue;
         }
+        if (!near_ && own_bases_.empty() && names_state_or_mode(said_)) {
+            define_frequency(line, letter, rhs, power);
+            line.reason =
+                say("it is a frequency about {}; whether of the state or mode that the words name is not judged",
+                    state.text);
+            return true;
+        }
         line.status = LineStatus::right_near;
         line.reason = say("a frequency of small vibrations about {}", state.text);
         break;
     }
     if (!known && (speaks_of_frequency_ || speaks_of_period_)) {
-        if (!letters_.name_of(letter.letter)) define(line, letter, rhs, power);
-        line.status = LineStatus::undecided;
+        define_frequency(line, letter, rhs, power);
         line.reason = say("no state of rest is known about which it is a frequency");
         return true;
     }

@@ -188,12 +188,9 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
                                !statement_->displayed && system_.mechanism().size() > 1;
-    if (holds_in_special_case(lhs, rhs)) {
-        line.status = LineStatus::right;
-        line.reason = say("for the values of parameters that the derivation states");
-        notes_.back().claim = {};
-        return;
-    }
+    const ex residual =
+        truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
+    if (follows_in_special_case(residual)) return settle_in_special_case(line);
     const bool is_excused = keeps_its_start(lhs, rhs) || (!is_energy && (under_condition_ > 0 || is_rest_alone));
     if (!is_excused) return;
     line.status = LineStatus::not_about_scene;
@@ -206,8 +203,10 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
 bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     if (!from_rest_ || displacements_ != nullptr) return false;
     const Mechanism& m = system_.mechanism();
-    const GiNaC::ex residual =
-        truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
+    const ex left = truth_.value(claim_text(lhs, as_written()).text),
+             right = truth_.value(claim_text(rhs, as_written()).text);
+    const bool has_root = holds_root(lhs) || holds_root(rhs);  // s' = √(2 a s)
+    const ex residual = has_root ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
     if (m.z->depends(residual, m.qddot)) return false;
     return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
 }

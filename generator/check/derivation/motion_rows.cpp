@@ -113,13 +113,15 @@ std::optional<bool> MotionRows::is_bound(const std::vector<ex>& factors) {
 
 bool MotionRows::is_multiple(const MotionRow& row, const MotionRow& of) const {
     std::optional<Prime> ratio;
+    int seen = 0;  // at one state any two are
     for (std::size_t s = 0; s < points_.size(); ++s) {
         if (!row.at[s] || !of.at[s] || of.at[s]->back().is_zero()) continue;
         const Prime here = row.at[s]->back() * of.at[s]->back().inverse();
         if (ratio && *ratio != here) return false;
         ratio = here;
+        ++seen;
     }
-    return ratio.has_value();
+    return seen > 1;
 }
 
 bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow*>& of, bool bound) const {

@@ -247,7 +247,9 @@ std::size_t MathParser::unit_end(std::size_t i, std::string& unit) const {
             break;
         }
     }
-    return is_certain || has_sign ? i : begin;
+    static constexpr std::string_view of_letters[] = {"m/s", "m/s^2", "N/m", "N*m", "J/s"};  // and not 2h/m
+    const bool is_usual = std::find(std::begin(of_letters), std::end(of_letters), unit) != std::end(of_letters);
+    return is_certain || (has_sign && is_usual) ? i : begin;
 }
 
 /// A number and the unit after it, if one stands there: \mathrm{m/s^2}, kg, 30^\circ.

@@ -94,7 +94,7 @@ bool speaks_of_exact_motion(std::string_view words) {
         in_lower_case(words),
         "exact equation*|the exact|exactly|full equation*|for arbitrary|arbitrary angles|arbitrary motion*|"
         "for large|large motion*|large angle*|large amplitude*|no approximation*|精确*|任意角*|大角度*|"
-        "大幅*|exakte*|beliebige*|große auslenkung*|große winkel*|exacta*");
+        "大幅*|exakte*|beliebig*|任意*|große auslenkung*|große winkel*|exacta*");
 }
 
 bool speaks_of_first_order(std::string_view words) {
@@ -129,6 +129,13 @@ bool speaks_of_first_order(std::string_view words) {
 
 bool ends_sentence(std::string_view words) {
     return end_of_sentences(words) > 0;
+}
+
+bool holds_sentence(std::string_view words) {
+    const std::size_t first = end_of_first_sentence(words, 0);
+    const std::size_t last = end_of_sentences(words);
+    const bool is_rest_of_sentence = first < 4;  // the full stop behind the formula
+    return last > (is_rest_of_sentence ? first : 0) && last > 3;
 }
 
 bool joins_formulas(std::string_view words) {
@@ -317,6 +324,23 @@ bool speaks_of_period(std::string_view words) {
     return has_phrase(in_lower_case(words), "period*|周期*|schwingungsdauer|periodo|período|période");
 }
 
+bool speaks_of_motion(std::string_view words) {
+    return has_phrase(
+               last_sentence(words),
+               "moves|move|moving|motion|swing|swings|later times|afterwards|then on|sinks|rises|accelerat*|"
+               "bewegung|bewegt|schwingung|schwingt|anschließend*|danach|运动时|运动中|运动方程*|摆动*|此后*|"
+               "movimiento|mouvement") &&
+           !mentions_rest(last_sentence(words));
+}
+
+bool names_state_or_mode(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "about the top|upright|inverted|off the axis|relative equilibrium*|in phase|out of phase|antiphase|"
+        "in-phase|mode in which|symmetric mode|antisymmetric*|schräge*|gegenphasig*|gleichphasig*|obere*|"
+        "偏离*|倒立*|同相*|反相*|最高*");
+}
+
 bool speaks_of_axes(std::string_view words) {
     return has_phrase(in_lower_case(words), "axis|axes|achse*|eje|ejes|axe") ||
            words.find("轴") != std::string_view::npos || words.find("坐标系") != std::string_view::npos;
@@ -326,7 +350,9 @@ bool speaks_of_general_case(std::string_view words) {
     return words.find('#') != std::string_view::npos ||
            has_phrase(
                in_lower_case(words),
-               "in general|in the general case|general case|from now on|now let|for all values|一般情形*|一般地*|"
+               "in general|in the general case|general case|from now on|now let|for all values|different "
+               "again|unequal|without "
+               "this assumption|for any|ohne diese annahme|verschieden*|一般情况*|若*不同|不同*|一般情形*|一般地*|"
                "allgemein*|im allgemeinen|en general|en général");
 }
 

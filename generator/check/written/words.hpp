@@ -57,6 +57,9 @@ bool explains(std::string_view words);
 /// Whether a sentence ends in the words.
 bool ends_sentence(std::string_view words);
 
+/// Whether a whole sentence stands in them, and not only the end of the last one.
+bool holds_sentence(std::string_view words);
+
 /// Whether they only join two formulas of one sentence: "or", "so".
 bool joins_formulas(std::string_view words);
 
@@ -80,6 +83,12 @@ bool speaks_of_period(std::string_view words);
 
 /// "The y axis points downwards": the author has laid axes of his own.
 bool speaks_of_axes(std::string_view words);
+
+/// "During the motion", "afterwards": it is no longer at rest, nor just after an impact.
+bool speaks_of_motion(std::string_view words);
+
+/// "About the top", "in the mode in which": a state or a mode that only the words name.
+bool names_state_or_mode(std::string_view words);
 
 /// "In general", a new heading: values of parameters that were stated before hold no longer.
 bool speaks_of_general_case(std::string_view words);
