@@ -199,6 +199,10 @@ std::vector<int> Claims::lower(Program& program, const std::vector<ex>& list) co
     constexpr int beyond_all = 1 << 20;  // no state gives them: they are random in exact arithmetic
     for (const auto& [coordinate, symbol] : displacements())
         given.emplace_back(symbol, program.variable({Variable::Kind::unknown, beyond_all + coordinate}));
+    const int beyond_displacements = beyond_all + m_.size();
+    for (std::size_t k = 0; k < letters_.size(); ++k)
+        given.emplace_back(
+            letters_[k], program.variable({Variable::Kind::unknown, beyond_displacements + static_cast<int>(k)}));
     for (const auto& [call, value] : held_functions(m_))
         given.emplace_back(call, lower_expressions(program, m_, {value})[0]);
     return lower_expressions(program, m_, list, given);

@@ -62,6 +62,8 @@ public:
     const std::optional<Impact::Exact>& after_impact();
     const std::string& impact_obstacle() const { return impact_obstacle_; }
 
+    /// A symbol that no state gives, as θ_0 of a derivation; random in exact arithmetic.
+    void add_letter(const GiNaC::symbol& letter) { letters_.push_back(letter); }
     /// Lowers into `program`; symbols of multipliers and open names become its unknowns.
     std::vector<int> lower(Program& program, const std::vector<GiNaC::ex>& list) const;
 
@@ -91,7 +93,8 @@ private:
     Formulas formulas_;
     std::vector<Open> open_;
     GiNaC::exmap defined_, driven_;
-    std::vector<GiNaC::symbol> third_;  ///< q'''
+    std::vector<GiNaC::symbol> letters_;  ///< of add_letter
+    std::vector<GiNaC::symbol> third_;    ///< q'''
     bool has_struck_ = false;
     std::optional<Impact::Exact> after_;
     std::string impact_obstacle_;

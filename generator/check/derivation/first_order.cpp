@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/derivation/first_order.hpp"
 
+#include <stdexcept>
+
 #include "check/slip.hpp"
 #include "model/energy.hpp"
 
@@ -14,6 +16,24 @@ constexpr double longest = 20000;
 constexpr int most_changes = 100;  // of a line that are tried
 
 }  // namespace
+
+bool holds_letters_only(const std::set<std::string>& names, const Scene& scene) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+        return name == "pi" || std::any_of(scene.parameters.begin(), scene.parameters.end(),
+                                           [&](const Parameter& p) { return p.name.text == name; });
+    });
+}
+
+Expression parsed(const std::string& text) {
+    std::vector<Diagnostic> mistakes;
+    return parse_expression(text, {}, mistakes);
+}
+
+std::vector<std::pair<std::string, Expression>> parsed(const BaseState& base) {
+    std::vector<std::pair<std::string, Expression>> result;
+    for (const auto& [name, value] : base.values) result.emplace_back(name, parsed(value));
+    return result;
+}
 
 std::vector<BaseState> base_states(const Scene& scene) {
     BaseState zero, start;
@@ -101,9 +121,13 @@ std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState&
                                          const std::map<std::string, ex>& known) {
     LineClaim near = line;
     near.near = base.values;
-    std::vector<CheckedClaim> verdicts = system.check({near}, known);
-    if (verdicts.empty() || verdicts[0].verdict == Verdict::undecided) return std::nullopt;
-    return std::move(verdicts[0]);
+    try {
+        std::vector<CheckedClaim> verdicts = system.check({near}, known);
+        if (verdicts.empty() || verdicts[0].verdict == Verdict::undecided) return std::nullopt;
+        return std::move(verdicts[0]);
+    } catch (const std::exception&) {  // it divides by zero, there or with a letter for another
+        return std::nullopt;
+    }
 }
 
 std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,

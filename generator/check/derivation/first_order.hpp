@@ -4,6 +4,7 @@
 /// Lines that hold for small deviations only: sin θ ≈ θ, V ≈ m g l θ²/2, linearized equations.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,12 @@ struct BaseState {
     std::vector<std::pair<std::string, std::string>> values;
     std::string text;  ///< "theta = 0"
 };
+
+/// Whether these are parameters of the scene.
+bool holds_letters_only(const std::set<std::string>& names, const Scene& scene);
+/// Empty for a text that is none.
+Expression parsed(const std::string& text);
+std::vector<std::pair<std::string, Expression>> parsed(const BaseState& base);
 
 /// All coordinates zero, and those of the scene's start if these are others.
 std::vector<BaseState> base_states(const Scene& scene);

@@ -8,6 +8,7 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
+#include "check/derivation/parts.hpp"
 #include "check/written/surroundings.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
@@ -74,6 +75,7 @@ void Marker::run() {
         conditioned_behind_ = is_conditioned_behind(written_, *statement_);
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
         if (speaks_of_general_case(statement_->words)) special_values_.clear();
+        hear_special_values(statement_->words);
         is_case_settled_ = is_case_settled_ || holds_sentence(statement_->words);
         speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
                            speaks_of_first_order(words_after_);  // … for small angles
@@ -136,6 +138,14 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
            1;
 }
 
+/// A letter of the author's for what changes in motion.
+bool Marker::is_of_motion(const Math& side) const {
+    const auto name = side.kind == Kind::letter ? letters_.name_of(side.letter) : std::nullopt;
+    const auto known = name ? known_.find(*name) : known_.end();
+    const Mechanism& m = system_.mechanism();
+    return known != known_.end() && m.z->depends(known->second, m.qdot);
+}
+
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
     if (relation == Relation::proportional) {  // among words it states a condition
         line.status = statement_->displayed ? LineStatus::not_understood : LineStatus::not_about_scene;
@@ -150,9 +160,18 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         return;
     }
     if (judge_virtual(line, lhs, rhs)) return;
-    if (is_of_state(line, lhs, rhs)) return;
+    if (is_condition_on_potential(line, lhs, rhs)) return;
+    const Lone own = lone_letter(lhs);
+    if (own.letter != nullptr && (own.letter->letter.base == "U" || own.letter->letter.base == "V") &&
+        own.letter->letter.index.empty() && speaks_of_effective_potential(statement_->words))
+        letters_.leave_to_author(own.letter->letter);
+    if (is_of_state(line, lhs, rhs) || judge_value(line, lhs, rhs, relation)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
+    const Lone lone = lone_letter(lhs);
+    const bool is_reused =
+        lone.letter != nullptr && speaks_of_frequency_ && is_of_motion(*lone.letter);  // ω has been a speed above
+    if (is_reused && is_frequency(line, *lone.letter, rhs, lone.power)) return;
     try {
         if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs, true)) return;
         judge_pair(line, lhs, rhs);
@@ -280,9 +299,15 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
         is_on_branch(line, sides) ||
 
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
-        holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) ||
-        follows_with_all_forces(line, sides))
+        holds_at_rest(line, sides) || holds_at_some_rest(line, sides) || holds_near(line, sides, row.residual) ||
+        follows(line, sides) || follows_with_all_forces(line, sides))
         return;
+    if (deviates_from_motion()) {
+        line.status = LineStatus::undecided;
+        line.reason = say("the state from which it deviates is no state of rest");
+        notes_.back().claim = {};
+        return;
+    }
     line.status = LineStatus::mistake;
     if (speaks_of_small_) notes_.back().near = near_;
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();

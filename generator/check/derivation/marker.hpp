@@ -7,7 +7,9 @@
 ///     marker.run();
 ///     marker.lines[0].status
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "check/derivation/first_order.hpp"
 #include "check/derivation/marked.hpp"
 #include "check/derivation/own_world.hpp"
+#include "check/derivation/rest_states.hpp"
 
 namespace alembert {
 
@@ -64,6 +67,9 @@ private:
 
     void line(std::size_t statement, std::size_t side);
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
+    bool is_of_motion(const Math& side) const;
+    bool holds_letters_that_move(const Math& math) const;
+    bool judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs);
     void judge_work(MarkedLine& line, const Math& rhs);
@@ -90,11 +96,26 @@ private:
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
     bool is_assumption(MarkedLine& line, const Sides& sides);
+    bool deviates_from_motion() const;
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
     bool is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value);
+    bool is_condition_on_potential(MarkedLine& line, const Math& lhs, const Math& rhs);
+    RestStates& states_of_rest(bool steady, bool of_case);
+    RestStates::Found found_at_rest(const std::function<RestStates::Found(RestStates&)>& ask, bool may_be_steady,
+                                    std::string& reason);
+    bool is_at_rest(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about,
+                    bool may_be_steady);
+    bool holds_at_some_rest(MarkedLine& line, const Sides& sides);
+    bool names_coordinate(const Math& side) const;
+    void know_state_letter(const Letter& letter);
+    bool is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool is_near_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     void define_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    std::vector<GiNaC::symbol> symbols_of_places() const;
+    bool is_frequency_at_rest(MarkedLine& line, const Math& letter, const Math& rhs, int power,
+                              const std::string& square);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
@@ -117,10 +138,13 @@ private:
     std::vector<Binding> bindings(const Letter& letter) const;
     void hear(const std::string& words);
     void hear_conditions(const std::string& words);
+    void hear_special_values(const std::string& words);
     bool is_value_of_state(const Letter& letter) const;
     bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
+    std::optional<std::string> excuse(const Math& lhs, const Math& rhs);
+    void hear_steady_motion(const std::string& words);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
     bool is_written_rate(const Math& side) const;
     bool is_wrong_derivative(MarkedLine& line, const Sides& sides);
@@ -128,9 +152,11 @@ private:
     bool is_on_branch(MarkedLine& line, const Sides& sides);
     bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned);
     void take_in_special_case(const Math& lhs, const Math& rhs);
+    void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);
     void settle_in_special_case(MarkedLine& line);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
+    bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
     bool is_on_other_axis(const Letter& letter, const GiNaC::ex& value);
@@ -170,6 +196,7 @@ private:
     bool repeats_law(const Sides& sides) const;
     bool is_law_of_hamilton(const Sides& sides) const;
     bool speaks_of_quantity(const LineNotes& notes) const;
+    std::map<std::string, GiNaC::ex> known_in_motion() const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
     void name_held(MarkedLine& line) const;
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
@@ -207,11 +234,19 @@ private:
     static constexpr int lines_of_condition = 2;  ///< a display ends a sentence without a full stop
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
     bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
-    bool conditioned_behind_ = false;             ///< whether the formula is followed by "at y = −l"
-    int under_condition_ = 0;                     ///< how many lines the condition that the words state may govern
-    GiNaC::exmap special_values_;                 ///< of parameters, as the derivation states them
-    bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
-    std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
+    int steady_lines_ = 0;             ///< how many lines what the words say of steady motion may govern
+    std::set<Letter> motion_letters_;  ///< in formulas of one motion: A and B of A cos ω t
+    bool conditioned_behind_ = false;  ///< whether the formula is followed by "at y = −l"
+    int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
+    std::unique_ptr<RestStates>
+        states_[4];                    ///< of rest and of steady motion: of all cases, and of the special one
+    std::set<Letter> state_letters_;   ///< θ_0 of a coordinate θ
+    GiNaC::exmap places_;              ///< their symbols, with the coordinates
+    bool are_states_of_rest_ = false;  ///< whether a line has shown that they are values at rest
+    bool is_state_wrong_ = false;      ///< whether one of these lines was wrong
+    GiNaC::exmap special_values_;      ///< of parameters, as the derivation states them
+    bool is_case_settled_ = false;     ///< whether a sentence has ended since, and they may hold no longer
+    std::set<std::string> kept_;       ///< names of constants of the motion that are momenta, or written as such
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word

@@ -148,6 +148,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
+                if (!statement.displayed && value.kind == Kind::number) continue;  // "at θ = 0"
                 if (of_motion && statement.consequence)
                     continue;  // "we get N = …" of the force that it determines
                 const bool is_explained =

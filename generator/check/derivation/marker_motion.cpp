@@ -123,23 +123,37 @@ bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, co
 
 /// m_1 = m_2 or k = 40: from then on lines may hold for these values alone.
 void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
-    const Math& letter = lhs.kind == Kind::letter ? lhs : rhs;
-    const Math& other = lhs.kind == Kind::letter ? rhs : lhs;
-    if (letter.kind != Kind::letter) {
+    const Mechanism& m = system_.mechanism();
+    const auto is_parameter = [&](const Math* letter) {
+        const auto name = letter == nullptr ? std::nullopt : letters_.name_of(letter->letter);
+        return name && letters_.is_of_scene(*name);
+    };
+    const Lone left = lone_letter(lhs), right = lone_letter(rhs);
+    const bool is_left = is_parameter(left.letter);
+    if (!is_left && !is_parameter(right.letter)) {
         under_condition_ = lines_of_condition;
         return;
     }
     try {
-        const ex name = truth_.value(claim_text(letter, as_written()).text);
-        const ex value = truth_.value(claim_text(other, as_written()).text);
-        if (!GiNaC::is_a<GiNaC::symbol>(name)) return;
-        special_values_[name] = value;
-        const bool is_datum =
-            GiNaC::is_a<GiNaC::numeric>(system_.mechanism().z->expand(value)) && !value.is_zero();
+        const Lone& lone = is_left ? left : right;
+        const ex name = truth_.value(claim_text(*lone.letter, as_written()).text);
+        const ex value = m.z->expand(truth_.value(claim_text(is_left ? rhs : lhs, as_written()).text));
+        if (!GiNaC::is_a<GiNaC::symbol>(name) || value.has(name)) return;
+        set_special_value(name, GiNaC::pow(value, GiNaC::numeric(1, lone.power)));
+        const bool is_datum = GiNaC::is_a<GiNaC::numeric>(value) && !value.is_zero();
         if (!is_datum) is_case_settled_ = false;  // k = 40 N/m holds for the whole page
     } catch (const NoMeaning&) {
         under_condition_ = lines_of_condition;
     }
+}
+
+/// The values stay in letters that have none: c_1 = c_2, then c_2 = 0.
+void Marker::set_special_value(const ex& name, const ex& value) {
+    const ex plain = value.subs(special_values_, GiNaC::subs_options::no_pattern);
+    if (plain.has(name)) return;
+    for (auto& [other, known] : special_values_)
+        known = known.subs(name == plain, GiNaC::subs_options::no_pattern);
+    special_values_[name] = plain;
 }
 
 /// Whether the line follows from the equations of motion for the values that the derivation has stated.

@@ -100,15 +100,20 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             const std::string name = letters_.name_of(item.first).value_or("");
             return name == "pi" || (letters_.is_of_scene(name) && !letters_.moves(name));
         });
-        const int most_dots =
-            begins_condition_of_state(statement_->words) ? 2 : 1;  // "if the hand is at rest, h'' = 0"
+        const bool is_aside = statement_->offset > 1 && written_.text[statement_->offset - 1] == '(';
+        const int most_dots =  // "if the hand is at rest, h'' = 0", "(r'' = 0)"
+            is_aside || begins_condition_of_state(statement_->words) ? 2 : 1;
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
     if (ends_with_near(statement_->words)) speaks_of_small_ = true;  // "near θ = 0 it gives"
+    const Mechanism& m = system_.mechanism();
     const auto moves = [&](const ClaimText& side) {
-        return std::any_of(side.names.begin(), side.names.end(),
-                           [&](const std::string& name) { return letters_.moves(name) && !is_input(name); });
+        return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) {
+            if (letters_.moves(name)) return !is_input(name);
+            const ex value = truth_.value(name);  // λ, or ω for φ'
+            return m.z->depends(value, system_.equations().lambda) || m.z->depends(value, m.qdot);
+        });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
     if (begins_condition_of_state(statement_->words) || ends_at_place(statement_->words))

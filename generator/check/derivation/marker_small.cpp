@@ -16,26 +16,9 @@ namespace alembert {
 
 using GiNaC::ex;
 using Kind = Math::Kind;
+using Found = RestStates::Found;
 
 namespace {
-
-bool holds_letters_only(const std::set<std::string>& names, const Scene& scene) {
-    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-        return name == "pi" || std::any_of(scene.parameters.begin(), scene.parameters.end(),
-                                           [&](const Parameter& p) { return p.name.text == name; });
-    });
-}
-
-Expression parsed(const std::string& text) {
-    std::vector<Diagnostic> mistakes;
-    return parse_expression(text, {}, mistakes);
-}
-
-std::vector<std::pair<std::string, Expression>> parsed(const BaseState& base) {
-    std::vector<std::pair<std::string, Expression>> result;
-    for (const auto& [name, value] : base.values) result.emplace_back(name, parsed(value));
-    return result;
-}
 
 /// T_2, V_1: energies of parts too.
 bool is_energy_alone(const Math& side) {
@@ -52,10 +35,50 @@ void Marker::define_frequency(MarkedLine& line, const Math& letter, const Math& 
     line.status = LineStatus::undecided;
 }
 
+std::vector<GiNaC::symbol> Marker::symbols_of_places() const {
+    std::vector<GiNaC::symbol> result;
+    for (const auto& [letter, coordinate] : places_) result.push_back(GiNaC::ex_to<GiNaC::symbol>(letter));
+    return result;
+}
+
+/// A frequency about a state of rest that has no short form.
+bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Math& rhs, int power,
+                                  const std::string& square) {
+    const ex value = truth_.value(square);
+    std::string reason;
+    const bool has_letter = system_.mechanism().z->depends(value, symbols_of_places());
+    const RestStates::About about{.places = has_letter ? places_ : GiNaC::exmap()};
+    const Found found = found_at_rest([&](RestStates& states) { return states.is_frequency(value, about); },
+                                      has_letter || steady_lines_ > 0 || !places_.empty(), reason);
+    const bool holds = found == Found::everywhere || found == Found::on_branch;
+    if (!holds && has_letter && (is_state_wrong_ || !are_states_of_rest_)) return false;
+    if (!holds && (found != Found::nowhere || !(speaks_of_frequency_ || speaks_of_period_))) return false;
+    if (!letters_.name_of(letter.letter)) define(line, letter, rhs, power);
+    const bool is_named = holds && !near_ && own_bases_.empty() && names_state_or_mode(said_);
+    line.follows_from = holds ? std::nullopt : own_.explains_frequency(value);
+    line.status = is_named            ? LineStatus::undecided
+                  : holds             ? LineStatus::right_near
+                  : line.follows_from ? LineStatus::follows
+                                      : LineStatus::mistake;
+    line.reason =
+        is_named
+            ? say("it is a frequency about {}; whether of the state or mode that the words name is not judged",
+                  say("a state of rest"))
+        : holds             ? say("a frequency of small vibrations about {}", say("a state of rest"))
+        : line.follows_from ? say("it follows from line {}", lines[*line.follows_from].line)
+                            : say("it is no frequency of small vibrations");
+    line.claim =
+        identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + claim_text(rhs, as_written()).text;
+    notes_.back().claim = {};
+    return true;
+}
+
 /// ω² = g/l, T = 2π √(l/g): a letter for a frequency or a period, in parameters. Judged if the words say so, or
 /// once the derivation has linearized; before that, ω₀² = g/l only gives a name.
 bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
     const std::string& base = letter.letter.base;
+    static const std::set<std::string> critical{"c", "cr", "crit", "krit", "k", "star"};
+    if (critical.contains(letter.letter.index)) return false;  // Ω_c, beyond which there are other states
     const bool of_period = (base == "T" || base == "tau" || base == "P") && speaks_of_period_;
     const bool of_turns = (base == "f" || base == "nu") && speaks_of_frequency_;
     const bool of_angle = base == "omega" || base == "Omega" || base == "lambda";
@@ -93,6 +116,8 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
         line.reason = say("a frequency of small vibrations about {}", state.text);
         break;
     }
+    if (line.status != LineStatus::right_near && is_frequency_at_rest(line, letter, rhs, power, omega))
+        return true;
     if (!known && (speaks_of_frequency_ || speaks_of_period_)) {
         define_frequency(line, letter, rhs, power);
         line.reason = say("no state of rest is known about which it is a frequency");
@@ -114,160 +139,6 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     line.reason = reason;
     if (line.claim.empty())
         line.claim = identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + text.text;
-    return true;
-}
-
-/// cos θ = (a + √(a² + 32 r²))/(8 r): the angle of an equilibrium.
-bool Marker::is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value) {
-    const bool is_function = side.kind == Kind::call && side.args.size() == 1 &&
-                             (side.text == "cos" || side.text == "sin" || side.text == "tan");
-    if (!is_function || side.args[0]->kind != Kind::letter || side.args[0]->dots > 0) return false;
-    const auto name = letters_.name_of(side.args[0]->letter);
-    if (!name || !letters_.moves(*name) || !holds_letters_only(value.names, system_.scene())) return false;
-    const Expression angle = parsed("a" + side.text + "(" + value.text + ")");
-    if (!angle) return false;
-    const CheckedClaim found =
-        check_equilibrium({system_.scene(), system_.mechanism(), {{*name, angle}}, system_.sheets()});
-    if (found.verdict == Verdict::refuted) return false;
-    line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::undecided;
-    line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : say("it could not be evaluated");
-    notes_.back().claim = {};
-    return true;
-}
-
-/// Equilibria: θ = 0, or an equation that holds there.
-bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
-    if ((speaks_of_roots_ || says_rest()) && is_root(line, sides)) return true;
-    const bool is_of_motion = holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
-    if (says_rest() && !is_of_motion && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
-    if (!speaks_of_rest_ && !statement_->displayed) return false;
-    if (says_rest() &&
-        (is_angle_of_rest(line, *sides.lhs, sides.right) || is_angle_of_rest(line, *sides.rhs, sides.left)))
-        return true;
-    const auto is_state = [&](const Math& a, const ClaimText& b) {
-        return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
-               holds_letters_only(b.names, system_.scene());
-    };
-    const bool left = is_state(*sides.lhs, sides.right), right = is_state(*sides.rhs, sides.left);
-    if (!left && !right) return false;
-    const std::string name = left ? sides.left.text : sides.right.text,
-                      value = left ? sides.right.text : sides.left.text;
-    const auto checked = [&](const std::vector<std::pair<std::string, Expression>>& place) {
-        return check_equilibrium({system_.scene(), system_.mechanism(), place, system_.sheets()});
-    };
-    CheckedClaim found = checked({{name, parsed(value)}});
-    for (const BaseState& base : base_states(system_.scene())) {  // the others where they may rest
-        if (found.verdict == Verdict::proved) break;
-        std::vector<std::pair<std::string, Expression>> place = parsed(base);
-        for (auto& [q, expression] : place)
-            if (q == name) expression = parsed(value);
-        if (CheckedClaim other = checked(place); other.verdict == Verdict::proved) found = std::move(other);
-    }
-    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_))
-        return false;
-    line.checked = found;
-    notes_.back().claim = {};
-    line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::mistake;
-    line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : found.reason;
-    return true;
-}
-
-/// "with the roots": θ = π, or cos θ = g/(R Ω²), makes one of the conditions of rest zero, whether or not the
-/// system can stay there.
-bool Marker::is_root(MarkedLine& line, const Sides& sides) {
-    constexpr double largest = 3000;
-    constexpr std::size_t most_terms = 500;
-    const Mechanism& m = system_.mechanism();
-    MotionRows& rows = system_.rows();
-    const ex left = m.z->expand(truth_.value(sides.left.text)),
-             right = m.z->expand(truth_.value(sides.right.text));
-    if (!GiNaC::is_a<GiNaC::symbol>(left) && !GiNaC::is_a<GiNaC::function>(left)) return false;
-    for (const ex& condition : system_.conditions_of_rest()) {
-        if (m.z->tree_size(condition) > largest || rows.is_identity(rows.row(condition)) == true) continue;
-        const auto sum = fourier(m.z->expand(condition), *m.symbols, most_terms);
-        if (!sum) continue;
-        const ex there = expression(readable(*sum)).subs(left == right);  // in sines and cosines of single angles
-        if (rows.is_identity(rows.row(m.z->name(there))) != true) continue;
-        notes_.back().claim = {};
-        line.status = LineStatus::right;
-        line.reason = say("a root of the condition of rest");
-        return true;
-    }
-    return false;
-}
-
-/// A line that is one of the conditions of rest but for a constant factor, inputs and multipliers being open.
-bool Marker::is_condition_of_rest(MarkedLine& line, const Sides& sides) {
-    const Mechanism& m = system_.mechanism();
-    MotionRows& rows = system_.rows();
-    std::vector<GiNaC::symbol> open = m.moving();
-    const std::vector<GiNaC::symbol>& lambda = system_.equations().lambda;
-    open.insert(open.end(), lambda.begin(), lambda.end());
-    const auto slopes = [&](const ex& e) { return m.z->pull_back({{e, 1}}, open); };
-    const ex residual = m.z->name(truth_.value(sides.left.text) - truth_.value(sides.right.text));
-    const std::vector<ex> own = slopes(residual);
-    for (const ex& condition : system_.conditions_of_rest()) {
-        if (rows.is_identity(rows.row(condition)) == true) continue;
-        const std::vector<ex> others = slopes(condition);
-        bool is_multiple = true;
-        for (std::size_t k = 0; is_multiple && k < open.size(); ++k)
-            is_multiple = is_identically_zero(m.z->name(condition * own[k] - residual * others[k]), m);
-        if (!is_multiple) continue;
-        notes_.back().claim = {};
-        line.status = LineStatus::right;
-        line.reason = say("of states of rest");
-        return true;
-    }
-    return false;
-}
-
-/// Whether a rate stands in it that vanishes at rest: not that of a function of time, which moves the support.
-bool Marker::holds_rates(const Math& math) const {
-    const bool is_letter = (math.kind == Kind::letter || math.kind == Kind::applied) && math.dots > 0;
-    const std::string name = is_letter ? letters_.name_of(math.letter).value_or("") : "";
-    if (is_letter && !letters_.is_function(name) && !is_input(name)) return true;
-    if (math.kind == Kind::rate) return true;
-    return std::any_of(math.args.begin(), math.args.end(), [&](const MathPtr& arg) { return holds_rates(*arg); });
-}
-
-/// "In equilibrium. We find": rest is spoken of here, or was a line before.
-bool Marker::says_rest() const {
-    return speaks_of_rest_ || is_rest_assumed_;
-}
-
-bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
-    if (at_rest_of_rates_) {
-        const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-        MotionRows& rows = system_.rows();
-        if (rows.is_identity(rows.row(system_.without_accelerations(residual))) == true) {
-            line.status = LineStatus::right;
-            line.reason = say("where the accelerations of the coordinates are zero");
-            notes_.back().claim = {};
-            return true;
-        }
-    }
-    if (!says_rest() || holds_rates(*sides.lhs) || holds_rates(*sides.rhs)) return false;  // at rest all vanish
-    LineClaim claim = notes_.back().claim;
-    claim.at_rest = true;
-    if (has_quantities(sides)) return false;
-    try {
-        const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
-        const auto& other = verdicts[0].other_branch;
-        const bool on_a_branch = other && other->verdict == Verdict::proved;
-        const bool is_vacuous = verdicts[0].verdict == Verdict::vacuous;
-        if ((is_vacuous || verdicts[0].verdict == Verdict::undecided) && !on_a_branch) {
-            line.status = LineStatus::undecided;
-            line.reason = is_vacuous ? say("no state of rest was found") : say("it could not be evaluated");
-            notes_.back().claim = {};
-            return true;
-        }
-        if (verdicts[0].verdict == Verdict::refuted && !on_a_branch) return false;
-    } catch (const std::exception&) {
-        return false;
-    }
-    notes_.back().claim = claim;
-    line.status = LineStatus::right;
-    line.reason = say("of states of rest");
     return true;
 }
 
@@ -315,6 +186,13 @@ bool Marker::states_second_order(const Sides& sides, const ex& residual, const B
     return first && !is_small(value - *first, base, 2, true, system_);
 }
 
+/// Whether the author deviates from a state at which the system does not rest, such as a steady motion.
+bool Marker::deviates_from_motion() const {
+    return speaks_of_small_ && !own_bases_.empty() &&
+           std::none_of(own_bases_.begin(), own_bases_.end(),
+                        [&](const BaseState& base) { return may_rest(base, system_); });
+}
+
 bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
     if (!speaks_of_small_) return false;
     const auto speaks_of = [&](MechanicalQuantity quantity) {
@@ -330,7 +208,7 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
         bool holds = is_small(residual, base, order, of_potential, system_);
         if (holds && order == 1 && states_second_order(sides, residual, base)) continue;
         if (!holds && order == 1) {
-            const auto checked = checked_near(notes_.back().claim, base, system_, known_);
+            const auto checked = checked_near(notes_.back().claim, base, system_, known_in_motion());
             holds = checked && checked->verdict == Verdict::proved;
             if (checked) near_ = base;
         }

@@ -31,22 +31,6 @@ bool speaks_of_numbered_equations(const std::string& source) {
     return numbered > 1 && source.find('(') == source.find_first_not_of(" {\\quad");
 }
 
-bool is_letter_t(const Math& math) {
-    return math.kind == Kind::letter && math.letter == Letter{.base = "t"};
-}
-
-/// x(t)
-bool is_at_time(const Math& math) {
-    return math.kind == Kind::applied && math.args.size() == 1 && is_letter_t(*math.args[0]);
-}
-
-/// t itself, and not as in θ(t).
-bool speaks_of_time(const Math& math) {
-    if (is_letter_t(math)) return true;
-    return !is_at_time(math) && std::any_of(math.args.begin(), math.args.end(),
-                                            [](const MathPtr& arg) { return speaks_of_time(*arg); });
-}
-
 /// α' = 0, α' = α'': rates alone, and zero.
 bool are_rates_at_rest(const Math& lhs, const Math& rhs) {
     const auto is_zero = [](const Math& side) { return side.kind == Kind::number && side.text == "0"; };
@@ -60,15 +44,42 @@ bool are_rates_at_rest(const Math& lhs, const Math& rhs) {
 void Marker::hear_conditions(const std::string& words) {
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
-    if (is_limit(written_, *statement_) || speaks_of_special_motion(words) || states_condition(words))
+    hear_steady_motion(words);
+    if (is_limit(written_, *statement_) || speaks_of_special_motion(words) || states_condition(words) ||
+        is_conditional(words))
         under_condition_ = lines_of_condition;
     speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
     mentions_impact_ = mentions_impact_ || mentions_impact(said_);
     from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
 }
 
+/// "Without damping, c = 0": values that the words give.
+void Marker::hear_special_values(const std::string& words) {
+    const auto take = [&](const ex& parameter, const ex& value) {
+        set_special_value(parameter, value);
+        is_case_settled_ = false;
+    };
+    if (neglects_resistance(words))
+        for (const auto& [parameter, none] : system_.without_resistance()) take(parameter, none);
+    if (neglects_gravity(words))
+        for (const Mechanism::Parameter& p : system_.mechanism().parameters)
+            if (std::any_of(system_.mechanism().gravity.begin(), system_.mechanism().gravity.end(),
+                            [&](const ex& g) { return g.is_equal(p.symbol) || g.is_equal(-p.symbol); }))
+                take(p.symbol, 0);
+    for (const std::string& word : letters_that_are_zero(words)) {
+        const std::size_t bar = word.find('_');
+        const Letter letter{.base = word.substr(0, bar),
+                            .index = bar == std::string::npos ? "" : word.substr(bar + 1)};
+        const auto name = letters_.name_of(letter);
+        if (!name || !letters_.is_of_scene(*name) || letters_.moves(*name) || letters_.is_function(*name))
+            continue;
+        if (const ex parameter = truth_.value(*name); GiNaC::is_a<GiNaC::symbol>(parameter)) take(parameter, 0);
+    }
+}
+
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
 bool Marker::is_value_of_state(const Letter& letter) const {
+    if (state_letters_.contains(letter)) return true;
     if (letters_.name_of(letter) || letter.index.empty()) return false;
     static const std::set<std::string> indices{"0", "eq", "e", "s", "st", "max", "min", "i", "f", "(0)", "star"};
     Letter plain = letter;
@@ -84,25 +95,30 @@ bool Marker::is_input(const std::string& name) const {
 
 /// m_1 = m_2, I = 0, M → ∞: parameters of the scene alone, which would be numbers otherwise.
 bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const {
-    const auto is_parameter = [&](const Letter& letter) {
-        const auto name = letters_.name_of(letter);
-        return name && letters_.is_of_scene(*name) && (is_input(*name) || !letters_.moves(*name)) &&
-               !letters_.is_function(*name);
+    const Mechanism& m = system_.mechanism();
+    const auto is_quantity = [&](const std::string& name) {
+        return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+            return quantity_of(item.first) && letters_.name_of(item.first) == name;
+        });
+    };
+    const auto is_own = [&](const std::string& name) {  // ω_0 = √(k/m), which the author has defined
+        const auto known = known_.find(name);
+        const auto depends = [&](const auto& symbols) { return m.z->depends(known->second, symbols); };
+        return known != known_.end() && !statement_->displayed && !is_quantity(name) && !depends(m.q) &&
+               !depends(m.qdot) && !depends(m.qddot) && !depends(system_.equations().lambda) &&
+               !depends(std::vector{m.t});
+    };
+    const auto is_parameter = [&](const std::string& name) {
+        return letters_.is_of_scene(name) && (is_input(name) || !letters_.moves(name)) &&
+               !letters_.is_function(name);
     };
     const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
     if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter && !is_said)) return false;
-    return std::all_of(all.begin(), all.end(),
-                       [&](const auto& item) { return item.second == 0 && is_parameter(item.first); });
-}
-
-/// x = ½ a t², θ = A cos ω t: one motion of a system that does not change with time.
-bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
-    const bool is_value = lhs.kind == Kind::letter || is_at_time(lhs);
-    const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
-    const std::vector<std::string>& coordinates = letters_.coordinates();
-    if (!name || std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()) return false;
-    if (!speaks_of_time(rhs)) return false;
-    return is_autonomous_;
+    const auto name_of = [&](const auto& item) { return letters_.name_of(item.first).value_or(""); };
+    return std::any_of(all.begin(), all.end(), [&](const auto& item) { return is_parameter(name_of(item)); }) &&
+           std::all_of(all.begin(), all.end(), [&](const auto& item) {
+               return item.second == 0 && (is_parameter(name_of(item)) || is_own(name_of(item)));
+           });
 }
 
 /// "Set α' = 0", "in steady rotation α' = α'' = 0", or the whole chain of rates that is set to zero.
@@ -151,10 +167,22 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     collect_letters(rhs, all);
     const auto state =
         std::find_if(all.begin(), all.end(), [&](const auto& item) { return is_value_of_state(item.first); });
-    if (state != all.end() && !letters_.is_authors(state->first))
+    if (state != all.end() && !letters_.is_authors(state->first)) {
+        const LineNotes notes = notes_.back();
+        try {
+            for (const auto& [letter, dots] : all)
+                if (is_value_of_state(letter) && !letters_.is_authors(letter) && !state_letters_.contains(letter))
+                    know_state_letter(letter);
+            if (is_of_state_letter(line, lhs, rhs)) return true;
+        } catch (const NoMeaning& reason) {  // a deviation is introduced here
+            if (reason.unknown && determine(line, lhs, rhs, *reason.unknown)) return true;
+        }
+        line = before;
+        notes_.back() = notes;
         return tell(
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
+    }
     if (says_rest() && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
         judge_pair(line, lhs, rhs);
         if (is_right(line.status)) return true;
@@ -174,57 +202,6 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     return false;
 }
 
-/// What is a mistake of all motions may hold under the condition that the words state, or be a constant of the
-/// motion that starts from rest. T and V are what they are in every state, but not for every value of the
-/// parameters.
-void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
-    if (line.status != LineStatus::mistake) return;
-    if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1) {
-        line.status = LineStatus::not_about_scene;
-        line.reason = say("the words may mean the energy of a part");
-        line.claim.clear();
-        return;
-    }
-    const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
-    const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
-                               !statement_->displayed && system_.mechanism().size() > 1;
-    const ex residual =
-        truth_.value(claim_text(lhs, as_written()).text) - truth_.value(claim_text(rhs, as_written()).text);
-    if (follows_in_special_case(residual)) return settle_in_special_case(line);
-    const bool is_excused = keeps_its_start(lhs, rhs) || (!is_energy && (under_condition_ > 0 || is_rest_alone));
-    if (!is_excused) return;
-    line.status = LineStatus::not_about_scene;
-    line.reason = say("the words state a condition for it; lines are judged for all motions");
-    line.claim.clear();
-}
-
-/// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
-/// motions.
-bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
-    if (!from_rest_ || displacements_ != nullptr) return false;
-    const Mechanism& m = system_.mechanism();
-    const ex left = truth_.value(claim_text(lhs, as_written()).text),
-             right = truth_.value(claim_text(rhs, as_written()).text);
-    const bool has_root = holds_root(lhs) || holds_root(rhs);  // s' = √(2 a s)
-    const ex residual = has_root ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
-    if (m.z->depends(residual, m.qddot)) return false;
-    return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
-}
-
-/// Velocities, displacements and energies of an impact may be written for the pose in which it happens.
-bool Marker::holds_at_pose(const Sides& sides) {
-    const bool is_of_motion = displacements_ != nullptr || holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
-    if (system_.scene().impulses.empty() || !is_of_motion) return false;
-    const Mechanism& m = system_.mechanism();
-    GiNaC::exmap pose;
-    for (const Coordinate& c : system_.scene().coordinates)
-        for (const GiNaC::symbol& q : m.q)
-            if (q.get_name() == c.name.text && c.initial) pose[q] = truth_.value(c.initial);
-    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-    if (m.z->depends(residual, m.qddot)) return false;
-    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, pose)[0]), m);
-}
-
 /// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.
 bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
     if (mentions_impact_ && holds_at_pose(sides)) {
@@ -240,7 +217,7 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
     claim.at_impact = true;
     Verdict verdict;
     try {
-        verdict = system_.check({claim}, known_)[0].verdict;
+        verdict = system_.check({claim}, known_in_motion())[0].verdict;
     } catch (const std::exception&) {
         return false;
     }

@@ -81,10 +81,20 @@ bool Marker::speaks_of_quantity(const LineNotes& notes) const {
     return is_own(notes.claim.lhs) || is_own(notes.claim.rhs);
 }
 
+/// Without the letters for values at one state, which no motion has.
+std::map<std::string, GiNaC::ex> Marker::known_in_motion() const {
+    std::map<std::string, GiNaC::ex> result = known_;
+    const std::vector<GiNaC::symbol> letters = symbols_of_places();
+    if (!letters.empty())
+        std::erase_if(result,
+                      [&](const auto& item) { return system_.mechanism().z->depends(item.second, letters); });
+    return result;
+}
+
 /// Names beside those that claims know themselves: T, V, L, E, H, momenta and generalized forces, which the check
 /// reads in either of their meanings.
 std::map<std::string, GiNaC::ex> Marker::known_to_check() const {
-    std::map<std::string, GiNaC::ex> result = known_;
+    std::map<std::string, GiNaC::ex> result = known_in_motion();
     for (const char* const letter : {"T", "V", "L", "E", "H"}) result.erase(letter);
     for (const std::string& q : letters_.coordinates()) result.erase("p_" + q), result.erase("Q_" + q);
     return result;

@@ -65,6 +65,9 @@ bool Marker::find_place(MarkedLine& line, const Math& lhs, const Math& rhs, cons
     const Letters before = letters_;
     const LineNotes notes = notes_.back();
     std::optional<Binding> named;
+    const bool is_number =
+        !letter.index.empty() && letter.index.find_first_not_of("0123456789") == std::string::npos;
+    const bool may_count_otherwise = is_number && !is_counted(system_.scene());  // y_1 of an end of the rod
     const auto judged_with = [&](const Binding& binding) {
         letters_ = before;
         notes_.back() = notes;
@@ -85,7 +88,7 @@ bool Marker::find_place(MarkedLine& line, const Math& lhs, const Math& rhs, cons
     };
     for (const Binding& binding : bindings(letter)) {
         if (judged_with(binding)) return true;
-        if (binding.named && !binding.reversed && !named) named = binding;
+        if (binding.named && !binding.reversed && !named && !may_count_otherwise) named = binding;
     }
     if (named && judged_with(*named)) return true;
     letters_ = before;
@@ -182,6 +185,11 @@ void Marker::judge_work(MarkedLine& line, const Math& rhs) {
     std::optional<std::size_t> wrong;
     for (const std::size_t i : wrong_here)  // rather one that is wrong in both readings
         if (!wrong || (!wrong_otherwise.contains(*wrong) && wrong_otherwise.contains(i))) wrong = i;
+    if (wrong && names_part_of_forces(said_)) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("the words speak of a part of the forces");
+        return;
+    }
     line.status = wrong ? LineStatus::mistake : LineStatus::right;
     const std::string name = "Q_" + m.q[wrong ? static_cast<int>(*wrong) : 0].get_name();
     const std::string& text = texts[wrong.value_or(0)];

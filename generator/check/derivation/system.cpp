@@ -95,6 +95,22 @@ ex DerivedSystem::without_accelerations(const ex& e) const {
     return substitute(*m_.z, {e}, none)[0];
 }
 
+GiNaC::exmap DerivedSystem::without_resistance() const {
+    std::vector<ex> forces;
+    for (const Load& load : m_.loads)
+        if (load.dissipative || load.origin.kind == Origin::Kind::friction)
+            for (const Load::Pair& pair : load.pairs) forces.push_back(m_.z->name(pair.force));
+    GiNaC::exmap none;
+    for (const Mechanism::Parameter& p : m_.parameters) {
+        const bool resists = std::any_of(forces.begin(), forces.end(),
+                                         [&](const ex& force) { return m_.z->depends(force, {p.symbol}); });
+        if (resists && !m_.z->depends(m_.lagrangian(), {p.symbol})) none[p.symbol] = 0;
+    }
+    for (const ex& force : substitute(*m_.z, forces, none))
+        if (!is_identically_zero(force, m_)) return {};
+    return none;
+}
+
 std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& claims,
                                                const std::map<std::string, ex>& known) const {
     Scene scene = derived_.scene;

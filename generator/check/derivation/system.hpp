@@ -43,7 +43,7 @@ public:
     /// A symbol in place of a value of this name, which is held while something is differentiated.
     GiNaC::symbol held(const std::string& name) {
         const auto [place, is_new] = held_.try_emplace(name);
-        if (is_new) place->second = m_.symbols->declare(name, SymbolInfo::Kind::other);
+        if (is_new) claims_->add_letter(place->second = m_.symbols->declare(name, SymbolInfo::Kind::other));
         return place->second;
     }
 
@@ -69,6 +69,13 @@ public:
     std::vector<GiNaC::ex> conditions_of_rest() const;
     /// The expression without accelerations: at q'' = 0.
     GiNaC::ex without_accelerations(const GiNaC::ex& e) const;
+    /// The values with which nothing resists a motion: the parameters of dampers and friction are zero. Empty if
+    /// there are none such, or if these parameters do more than that.
+    GiNaC::exmap without_resistance() const;
+    /// Multipliers become unknowns of the program.
+    std::vector<int> lower(Program& program, const std::vector<GiNaC::ex>& list) const {
+        return claims_->lower(program, list);
+    }
 
     /// The verdicts of the check, with slips; `known` are further names with their values.
     std::vector<CheckedClaim> check(const std::vector<LineClaim>& claims,

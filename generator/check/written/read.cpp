@@ -98,10 +98,11 @@ bool is_written_by_hand(const std::string& line) {
            });
 }
 
-/// A page of words is no file of claims: it has none of the words of such a file, and sentences, labels or signs
-/// that these do not have.
+/// A page of words is no file of claims: it has sentences, labels or signs that these do not have, and more than
+/// one of them where a line begins with a word of such a file.
 bool has_prose(const std::string& text) {
-    bool is_by_hand = false;
+    int by_hand = 0;
+    bool has_mode = false;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         std::string line = text.substr(begin, end - begin);
@@ -112,12 +113,16 @@ bool has_prose(const std::string& text) {
         static constexpr std::string_view modes[] = {"unknowns", "constants", "rest",   "impact",   "motion",
                                                      "solution", "near",      "closed", "sticking", "where"};
         const std::string word = line.substr(first, line.find_first_of(" \t\r", first) - first);
-        if (std::find(std::begin(modes), std::end(modes), word) != std::end(modes)) return false;
+        if (std::find(std::begin(modes), std::end(modes), word) != std::end(modes)) {
+            has_mode = true;
+            continue;
+        }
         const bool is_equation = line.find('=') != std::string::npos || line.find("＝") != std::string::npos;
-        is_by_hand = is_by_hand || is_written_by_hand(line) || (!is_equation && longest_sentence(line) >= 2) ||
-                     (!is_equation && static_cast<unsigned char>(line[first]) >= 0x80);
+        const bool is_by_hand = is_written_by_hand(line) || (!is_equation && longest_sentence(line) >= 2) ||
+                                (!is_equation && static_cast<unsigned char>(line[first]) >= 0x80);
+        by_hand += is_by_hand ? 1 : 0;
     }
-    return is_by_hand;
+    return by_hand > (has_mode ? 1 : 0);
 }
 
 }  // namespace

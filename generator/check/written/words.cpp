@@ -2,6 +2,7 @@
 #include "check/written/words.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/language/greek.hpp"
 #include "check/written/commands.hpp"
@@ -155,12 +156,97 @@ bool states_condition(std::string_view words) {
     return is_conditional && holds_something;
 }
 
+bool is_conditional(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    sentence.erase(0, std::min(sentence.find_first_not_of(" *#>-(,"), sentence.size()));
+    for (const std::string_view joining : {"but ", "and ", "now ", "also ", "in particular ", "und ", "aber "})
+        if (sentence.starts_with(joining)) sentence.erase(0, joining.size());
+    static constexpr std::string_view beginnings[] = {"if ",      "when ",  "whenever ", "as long as ",
+                                                      "wenn ",    "falls ", "solange ",  "si ",
+                                                      "lorsque ", "quand ", "cuando ",   "mientras "};
+    const auto* const begun =
+        std::find_if(std::begin(beginnings), std::end(beginnings),
+                     [&](std::string_view beginning) { return sentence.starts_with(beginning); });
+    const bool is_chinese = has_phrase(sentence, "当*时*|若*|如果*|假如*|假定*");
+    if (begun == std::end(beginnings) && !is_chinese) return false;
+    // "If we substitute this, we get" is no condition of the mechanism's
+    static constexpr std::string_view operations =
+        "substitut*|insert*|differentiat*|derivative|plug*|combine*|combining|eliminat*|multipl*|divid*|expand*|"
+        "simplif*|rearrang*|compar*|add|adding|subtract*|equat*|use|using|apply|applying|write|writing|collect*|"
+        "einsetz*|einges*|ableit*|abgeleitet|differenzier*|multipliz*|umform*|addier*|subtrahier*|eliminier*|"
+        "verwend*|代入*|求导*|微分*|整理*|展开*|相加*|相减*|消去*|sustitu*|deriv*|dériv*|rempla*|"
+        "multipli*|élimin*|simplifi*";
+    return !has_phrase(sentence, operations);
+}
+
+bool speaks_of_effective_potential(std::string_view words) {
+    return has_phrase(last_sentence(words),
+                      "effective potential*|effective one-dimensional potential|effektive* potential*|effektives "
+                      "potential|effektiven potential*|potentiel effectif|potencial efectivo|potentiel effective|"
+                      "有效势*|等效势*");
+}
+
+bool neglects_gravity(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "without gravity|no gravity|neglecting gravity|neglect gravity|ignoring gravity|in the absence of "
+        "gravity|weightless*|ohne schwerkraft|ohne gewichtskraft|schwerelos*|不计重力*|无重力*|忽略重力*|"
+        "失重*|sans pesanteur|sans gravité|sin gravedad|en ausencia de gravedad");
+}
+
+bool neglects_resistance(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "without damping|without friction|without drag|without resistance|undamped|no damping|no friction|"
+        "no drag|neglecting friction|neglecting damping|neglecting the friction|neglecting the damping|"
+        "neglect friction|neglect damping|ignoring friction|ignoring damping|frictionless|if friction is "
+        "neglected|if damping is neglected|ohne dämpfung|ohne reibung|ungedämpft*|reibungsfrei*|reibungslos*|"
+        "无阻尼*|不计阻尼*|不计摩擦*|无摩擦*|忽略摩擦*|忽略阻尼*|sans frottement*|sans amortissement|"
+        "non amorti*|sin fricción|sin rozamiento|sin amortiguamiento|no amortiguad*");
+}
+
+std::vector<std::string> letters_that_are_zero(std::string_view words) {
+    std::vector<std::string> result;
+    const auto is_of_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (std::size_t sign = words.find('='); sign != std::string_view::npos; sign = words.find('=', sign + 1)) {
+        const std::size_t zero = words.find_first_not_of(' ', sign + 1);
+        if (zero == std::string_view::npos || words[zero] != '0' ||
+            (zero + 1 < words.size() &&
+             (is_of_letter(words[zero + 1]) || words.substr(zero + 1).starts_with(".0") ||
+              (words[zero + 1] == '.' && zero + 2 < words.size() && is_of_letter(words[zero + 2])))))
+            continue;
+        std::size_t end = sign;
+        while (end > 0 && words[end - 1] == ' ') --end;
+        std::size_t begin = end;
+        while (begin > 0 && is_of_letter(words[begin - 1])) --begin;
+        const bool is_alone = begin == 0 || words[begin - 1] == ' ' || words[begin - 1] == '(';
+        if (begin < end && is_alone && std::isalpha(static_cast<unsigned char>(words[begin])) != 0)
+            result.emplace_back(words.substr(begin, end - begin));
+    }
+    return result;
+}
+
+bool names_part_of_forces(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "of the weight|of the weights|of the two weights|of gravity|of the gravity|of gravitational forces|by "
+        "gravity|"
+        "gravity does|gravity contributes|weight contributes|"
+        "of the spring|of the springs|by the spring|of the damper|of the dampers|of friction|of the drag|"
+        "of the motor|of the torque|der gewichte|der gewichtskr*|der schwerkraft|der federkr*|der feder|"
+        "der reibung|des gewichts|du poids|des poids|du ressort|del peso|de los pesos|del resorte|"
+        "重力的虚功*|重力所作*|重力所做*|重力作*|重力做*|弹簧力的虚功*|弹性力的虚功*|弹簧力所*|弹性力所*|"
+        "摩擦力的虚功*|阻尼力的虚功*");
+}
+
 bool begins_condition_of_state(std::string_view words) {
     const std::string sentence = last_sentence(words);
-    if (has_phrase(sentence, "if|when|whenever|suppose|falls|wenn|若*|如果*|假设*")) return true;
+    if (has_phrase(sentence, "if|when|whenever|suppose|falls|wenn|si|cuando|lorsque|quand|若*|如果*|假设*"))
+        return true;
     const std::size_t end = sentence.find_last_not_of(" (");
     const std::string_view before = std::string_view(sentence).substr(0, end == std::string::npos ? 0 : end + 1);
-    static constexpr std::string_view last[] = {"at", "for", "bei", "für", "在", "对于", "当"};
+    static constexpr std::string_view last[] = {"at",   "for", "bei", "für",  "para",
+                                                "pour", "en",  "在",  "对于", "当"};
     return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
         if (!before.ends_with(word)) return false;
         const std::size_t begin = before.size() - word.size();
@@ -172,18 +258,37 @@ bool speaks_of_special_case(std::string_view words) {
     return begins_condition_of_state(words) ||
            has_phrase(
                last_sentence(words),
+               "si|cuando|caso particular|casos particulares|cas particulier|dans le cas|en el "
+               "caso|pour|para|spezialfall|"
                "special case|in the case|in case|provided|only for|only if|sonderfall|特殊情形*|特例*|当且仅当*");
 }
 
+namespace {
+
+constexpr std::string_view special_motions =
+    "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
+    "for steady rotation|in steady rotation|at a steady speed|at steady speed|stationär mit|"
+    "im stationären zustand|relative equilibrium*|regelmäßige präzession|regelmäßiger "
+    "präzession|regulärer präzession|reguläre "
+    "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
+    "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
+    "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
+    "on the circle|on a circle|horizontal circle*|uniform rotation|steady turn*|constant inclination|"
+    "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
+    "régulière|"
+    "mouvement stationnaire|régime permanent|mouvement circulaire|pendule conique|orbite circulaire|precesión "
+    "regular|precesión estacionaria|régimen permanente|movimiento circular|órbita circular|péndulo cónico|"
+    "rotación uniforme|equilibrio relativo|équilibre relatif|relativen gleichgewicht*|relatives "
+    "gleichgewicht|relative gleichgewichtslage*|匀速圆周*|稳态进动*|匀速转动*";
+
+}  // namespace
+
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(last_sentence(words),
-                      "steady motion*|steady precession|steady state|stationary motion*|regular precession|"
-                      "for steady rotation|in steady rotation|at a steady speed|at steady speed|stationär mit|"
-                      "im stationären zustand|relative equilibrium*|regelmäßige präzession|regelmäßiger "
-                      "präzession|regulärer präzession|reguläre "
-                      "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
-                      "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
-                      "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*");
+    return has_phrase(last_sentence(words), special_motions);
+}
+
+bool mentions_special_motion(std::string_view words) {
+    return has_phrase(in_lower_case(words), special_motions);
 }
 
 namespace {
@@ -410,6 +515,7 @@ bool is_prose(std::string_view word) {
         "for", "from", "with", "and",  "or",    "so",   "we",    "it",    "as",   "if",    "let",   "get",
         "has", "have", "this", "that", "then",  "thus", "hence", "where", "when", "which", "gives", "yields",
         "its", "our",  "here", "us",   "now",   "was",  "were",  "can",   "will", "both",  "also",  "since",
+        "put", "say",  "try",  "you",  "may",   "one",  "all",   "any",   "how",  "who",   "let's", "yes",
         "not", "no",   "but",  "use",  "using", "set",  "find",  "take",  "per",  "via",   "into",  "I"};
     if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
     const std::string lower = in_lower_case(word);

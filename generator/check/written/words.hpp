@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace alembert {
 
@@ -24,6 +25,25 @@ bool speaks_of_exact_motion(std::string_view words);
 /// motions. "When the bead moves", "if we insert" are no conditions.
 bool states_condition(std::string_view words);
 
+/// "If the pendulum hangs at a constant angle, then": what follows holds under a condition that the words
+/// describe. Not so where they tell what is done with formulas, as "if we differentiate".
+bool is_conditional(std::string_view words);
+
+/// "The effective potential is": what it names is not the potential of the forces.
+bool speaks_of_effective_potential(std::string_view words);
+
+/// "Without damping", "neglecting friction".
+bool neglects_resistance(std::string_view words);
+
+/// "Without gravity".
+bool neglects_gravity(std::string_view words);
+
+/// "Without damping, c = 0": letters that the words set to zero.
+std::vector<std::string> letters_that_are_zero(std::string_view words);
+
+/// "The virtual work of the weights": one kind of forces alone.
+bool names_part_of_forces(std::string_view words);
+
 /// "if", "at", "for" before a formula: if that describes a state, what follows holds there.
 bool begins_condition_of_state(std::string_view words);
 
@@ -39,6 +59,8 @@ bool mentions_rest(std::string_view words);
 
 /// "steady motion", "conical pendulum": the motions of which the last sentence speaks are special ones.
 bool speaks_of_special_motion(std::string_view words);
+/// The same of all the words, not of the last sentence alone.
+bool mentions_special_motion(std::string_view words);
 
 /// "starts from rest": constants of the motion are zero.
 bool speaks_of_start_from_rest(std::string_view words);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What would be a mistake of all motions, but is meant otherwise: under a condition, of one motion, for special
+// values, of a part. A line is a mistake only under every reading.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/written/words.hpp"
+#include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+bool is_letter_t(const Math& math) {
+    return math.kind == Kind::letter && math.letter == Letter{.base = "t"};
+}
+
+/// x(t)
+bool is_at_time(const Math& math) {
+    return math.kind == Kind::applied && math.args.size() == 1 && is_letter_t(*math.args[0]);
+}
+
+/// t itself, and not as in θ(t).
+bool speaks_of_time(const Math& math) {
+    if (is_letter_t(math)) return true;
+    return !is_at_time(math) && std::any_of(math.args.begin(), math.args.end(),
+                                            [](const MathPtr& arg) { return speaks_of_time(*arg); });
+}
+
+}  // namespace
+
+/// "Steady precession." is meant until the words go on to the motion in general.
+void Marker::hear_steady_motion(const std::string& words) {
+    constexpr int most_lines = 4;
+    if (mentions_special_motion(words))
+        steady_lines_ = most_lines;
+    else if (speaks_of_general_case(words) || speaks_of_motion(words))
+        steady_lines_ = 0;
+    else if (steady_lines_ > 0)
+        --steady_lines_;
+}
+
+/// x = ½ a t², θ = A cos ω t: one motion of a system that does not change with time. Letters such as A, which no
+/// equation gives, speak of that motion from then on.
+bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
+    std::map<Letter, int> all;
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const auto& item) { return motion_letters_.contains(item.first); }))
+        return true;
+    const bool is_value = lhs.kind == Kind::letter || is_at_time(lhs);
+    const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
+    const std::vector<std::string>& coordinates = letters_.coordinates();
+    if (!name || std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()) return false;
+    if (!speaks_of_time(rhs)) return false;
+    std::set<Letter> unknown;
+    for (const auto& [letter, dots] : all)
+        if (!letters_.name_of(letter) && letter != Letter{.base = "t"}) unknown.insert(letter);
+    if (!is_autonomous_ && unknown.empty()) return false;
+    motion_letters_.insert(unknown.begin(), unknown.end());
+    return true;
+}
+
+/// The reason why a line that does not hold on all motions may yet be meant rightly; nothing if there is none.
+std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
+    if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1)
+        return say("the words may mean the energy of a part");
+    if (is_lone_force(lhs) && names_part_of_forces(said_)) return say("the words speak of a part of the forces");
+    if (is_autonomous_ && (speaks_of_time(lhs) || speaks_of_time(rhs)))
+        return say("it describes one motion; lines are judged for all motions");
+    // T and V are what they are in every state, but not for every value of the parameters.
+    const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
+    const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
+                               !statement_->displayed && system_.mechanism().size() > 1;
+    const bool is_steady = steady_lines_ > 0 && !is_accelerated(lhs) && !is_accelerated(rhs);
+    const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady;
+    if (keeps_its_start(lhs, rhs) || (!is_energy && is_conditional))
+        return say("the words state a condition for it; lines are judged for all motions");
+    return std::nullopt;
+}
+
+/// A mistake only under every reading.
+void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    if (line.status != LineStatus::mistake) return;
+    const Sides sides = sides_of(lhs, rhs);
+    if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text)))
+        return settle_in_special_case(line);
+    if (holds_at_pose(sides)) {
+        line.status = LineStatus::right;
+        line.reason = say("at the pose of the impact");
+        notes_.back().claim = {};
+        return;
+    }
+    const std::optional<std::string> reason = excuse(lhs, rhs);
+    if (!reason) return;
+    line.status = LineStatus::not_about_scene;
+    line.reason = *reason;
+    line.claim.clear();
+}
+
+/// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
+/// motions.
+bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
+    if (!from_rest_ || displacements_ != nullptr) return false;
+    const Mechanism& m = system_.mechanism();
+    const ex left = truth_.value(claim_text(lhs, as_written()).text),
+             right = truth_.value(claim_text(rhs, as_written()).text);
+    const bool has_root = holds_root(lhs) || holds_root(rhs);  // s' = √(2 a s)
+    const ex residual = has_root ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
+    if (m.z->depends(residual, m.qddot)) return false;
+    return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
+}
+
+/// The same of a start at rest at θ_0, where it holds too: θ'² = 2 g (cos θ − cos θ_0)/l.
+bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    if (displacements_ != nullptr || m.z->depends(residual, m.qddot)) return false;
+    ex kept = residual;
+    if (holds_root(lhs) || holds_root(rhs))
+        kept = GiNaC::pow(truth_.value(claim_text(lhs, as_written()).text), 2) -
+               GiNaC::pow(truth_.value(claim_text(rhs, as_written()).text), 2);
+    GiNaC::exmap start;
+    for (const GiNaC::symbol& rate : m.qdot) start[rate] = 0;
+    for (const auto& [letter, coordinate] : places_) start[coordinate] = letter;
+    if (!is_identically_zero(m.z->name(substitute(*m.z, {kept}, start)[0]), m)) return false;
+    if (is_identically_zero(m.z->name(kept), m)) return false;
+    return system_.rows().holds(system_.rows().row(m.time_derivative({kept})[0])) == true;
+}
+
+/// Velocities, displacements and energies of an impact may be written for the pose in which it happens.
+bool Marker::holds_at_pose(const Sides& sides) {
+    const bool is_of_motion = displacements_ != nullptr || holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
+    if (system_.scene().impulses.empty() || !is_of_motion) return false;
+    const Mechanism& m = system_.mechanism();
+    GiNaC::exmap pose;
+    for (const Coordinate& c : system_.scene().coordinates)
+        for (const GiNaC::symbol& q : m.q)
+            if (q.get_name() == c.name.text && c.initial) pose[q] = truth_.value(c.initial);
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    if (m.z->depends(residual, m.qddot)) return false;
+    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, pose)[0]), m);
+}
+
+}  // namespace alembert

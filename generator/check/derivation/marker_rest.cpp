@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines about states of rest: equilibria, conditions of rest, and what holds at some of these states alone.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+
+#include "algebra/notation/readable.hpp"
+#include "base/language/say.hpp"
+#include "check/derivation/rest_states.hpp"
+#include "check/frequency.hpp"
+#include "check/written/words.hpp"
+#include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+using Found = RestStates::Found;
+
+/// cos θ = (a + √(a² + 32 r²))/(8 r): the angle of an equilibrium.
+bool Marker::is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value) {
+    const bool is_function = side.kind == Kind::call && side.args.size() == 1 &&
+                             (side.text == "cos" || side.text == "sin" || side.text == "tan");
+    if (!is_function || side.args[0]->kind != Kind::letter || side.args[0]->dots > 0) return false;
+    const auto name = letters_.name_of(side.args[0]->letter);
+    if (!name || !letters_.moves(*name) || !holds_letters_only(value.names, system_.scene())) return false;
+    const Expression angle = parsed("a" + side.text + "(" + value.text + ")");
+    if (!angle) return false;
+    const CheckedClaim found =
+        check_equilibrium({system_.scene(), system_.mechanism(), {{*name, angle}}, system_.sheets()});
+    if (found.verdict == Verdict::refuted) return false;
+    line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::undecided;
+    line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : say("it could not be evaluated");
+    notes_.back().claim = {};
+    return true;
+}
+
+/// States of rest or of steady motion in numbers; `of_case`: for the values of parameters that the derivation
+/// states.
+RestStates& Marker::states_of_rest(bool steady, bool of_case) {
+    std::unique_ptr<RestStates>& states = states_[(steady ? 2 : 0) + (of_case ? 1 : 0)];
+    const auto is_same = [](const GiNaC::exmap& a, const GiNaC::exmap& b) {
+        return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
+                   return x.first.is_equal(y.first) && x.second.is_equal(y.second);
+               });
+    };
+    const GiNaC::exmap special = of_case ? special_values_ : GiNaC::exmap();
+    if (!states || !is_same(states->kind().special, special))
+        states = std::make_unique<RestStates>(system_, RestStates::Kind{.special = special, .steady = steady});
+    return *states;
+}
+
+/// What is asked of all states of rest, of those of the special case, and then of steady motions. The answer that
+/// says most; `reason` tells it.
+Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool may_be_steady,
+                            std::string& reason) {
+    bool is_nowhere = false, is_elsewhere = false;
+    for (const bool steady : {false, true})
+        for (const bool of_case : {false, true}) {
+            if ((steady && !may_be_steady) || (of_case && special_values_.empty())) continue;
+            Found found = Found::unknown;
+            try {
+                found = ask(states_of_rest(steady, of_case));
+            } catch (const std::exception&) {  // what has no value in numbers
+            }
+            is_nowhere = is_nowhere || found == Found::nowhere;
+            is_elsewhere = is_elsewhere || found == Found::elsewhere;
+            if (found != Found::everywhere && found != Found::on_branch) continue;
+            reason = of_case  ? say("of states of rest, for the values of parameters that the derivation states")
+                     : steady ? say("of steady motions")
+                     : found == Found::everywhere ? say("of states of rest")
+                                                  : say("of one of the states of rest");
+            return found;
+        }
+    return is_elsewhere ? Found::elsewhere : is_nowhere ? Found::nowhere : Found::unknown;
+}
+
+/// dV/dφ = 0 is what states of rest obey, whatever the words say.
+bool Marker::is_condition_on_potential(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const bool is_slope = lhs.kind == Kind::partial && lhs.args[0]->kind == Kind::letter &&
+                          letters_.name_of(lhs.args[0]->letter) == letters_.name_of(MechanicalQuantity::potential);
+    const bool is_said = says_rest() || lhs.text == "d";
+    if (!is_slope || !is_said || rhs.kind != Kind::number || rhs.text != "0") return false;
+    if (!is_at_rest(line, truth_.value(sides_of(lhs, rhs).left.text), {}, false)) return false;
+    is_rest_assumed_ = true;
+    return true;
+}
+
+/// Right where the expression vanishes at states of rest; not judged where it does at some that are unstable and
+/// far away, so that it is not known whether they are meant. Returns whether it is one of these.
+bool Marker::is_at_rest(MarkedLine& line, const ex& residual, const RestStates::About& about, bool may_be_steady) {
+    std::string reason;
+    const Found found =
+        found_at_rest([&](RestStates& states) { return states.vanishes(residual, about); }, may_be_steady, reason);
+    if (found == Found::elsewhere)
+        reason = say("it holds at some unstable states of rest; whether they are meant is not said");
+    else if (found != Found::everywhere && found != Found::on_branch)
+        return false;
+    line.status = found == Found::elsewhere ? LineStatus::undecided : LineStatus::right;
+    line.reason = std::move(reason);
+    notes_.back().claim = {};
+    return true;
+}
+
+/// Whether it holds at some states of rest: the others are other branches.
+bool Marker::holds_at_some_rest(MarkedLine& line, const Sides& sides) {
+    if (!says_rest() || displacements_ != nullptr || has_quantities(sides)) return false;
+    if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs)) return false;
+    const bool names_place = names_coordinate(*sides.lhs) || names_coordinate(*sides.rhs);
+    return is_at_rest(line, truth_.value(sides.left.text) - truth_.value(sides.right.text),
+                      {.names_place = names_place}, false);
+}
+
+/// θ or cos θ alone: the line then states the place.
+bool Marker::names_coordinate(const Math& side) const {
+    const Math& inner = side.kind == Kind::call && side.args.size() == 1 ? *side.args[0] : side;
+    if (inner.kind != Kind::letter || inner.dots > 0) return false;
+    return state_letters_.contains(inner.letter) || letters_.moves(letters_.name_of(inner.letter).value_or(""));
+}
+
+/// θ_0 of a coordinate θ: a symbol from now on.
+void Marker::know_state_letter(const Letter& letter) {
+    Letter plain = letter;
+    plain.index.clear();
+    const std::string name = letters_.free_name(identifier_of(letter)), coordinate = *letters_.name_of(plain);
+    const Mechanism& m = system_.mechanism();
+    const GiNaC::symbol symbol = system_.held(name);
+    for (const GiNaC::symbol& q : m.q)
+        if (q.get_name() == coordinate) places_[symbol] = q;
+    letters_.bind(letter, name);
+    known_[name] = symbol;
+    truth_.know(name, symbol);
+    own_.state(name, symbol, {});
+    state_letters_.insert(letter);
+}
+
+/// A line with θ_0, the value of θ at one state: right of states of rest, near them, or of the motion that starts
+/// there. Returns whether that is decided.
+bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    std::map<Letter, int> all;
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
+    const bool is_named = std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        return state_letters_.contains(item.first) && indices.contains(item.first.index);
+    });
+    const bool is_said = !from_rest_ && (says_rest() || is_named || steady_lines_ > 0 || are_states_of_rest_);
+    const Lone lone = lone_letter(lhs);
+    if (lone.letter != nullptr && lone.letter->letter.base == "omega" &&
+        !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
+        (speaks_of_frequency_ || speaks_of_small_)) {  // ω² = g cos θ_0/l
+        const std::string text = claim_text(rhs, as_written()).text;
+        return is_frequency_at_rest(line, *lone.letter, rhs, lone.power,
+                                    lone.power == 2 ? text : "(" + text + ")^2");
+    }
+    if (lone.letter != nullptr && !letters_.name_of(lone.letter->letter)) {
+        define(line, *lone.letter, rhs, lone.power);
+        return true;
+    }
+    const Sides sides = sides_of(lhs, rhs);
+    if (has_quantities(sides)) return false;
+    const Mechanism& m = system_.mechanism();
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    const bool is_of_motion =
+        m.z->depends(residual, m.q) || m.z->depends(residual, m.qddot) || holds_rates(lhs) || holds_rates(rhs);
+    const RestStates::About about{.places = places_,
+                                  .names_place = names_coordinate(lhs) || names_coordinate(rhs)};
+    line.claim = sides.left.text + " = " + sides.right.text;
+    if (!m.z->depends(residual, m.qddot) && is_at_rest(line, residual, about, true)) {
+        if (line.status == LineStatus::right) are_states_of_rest_ = true;
+        return true;
+    }
+    if (is_of_motion && is_near_state(line, residual, about)) return true;
+    if (keeps_its_start_at(residual, lhs, rhs)) {
+        line.status = LineStatus::right;
+        line.reason = say("of the motion that starts there from rest");
+        return true;
+    }
+    const bool is_surely_meant = is_said && !is_state_wrong_ && (!is_of_motion || speaks_of_small_);
+    if (!is_surely_meant || line.status == LineStatus::not_about_scene) return false;
+    std::string reason;
+    const Found found = found_at_rest(
+        [&](RestStates& states) {
+            return is_of_motion ? states.vanishes_near(residual, about) : states.vanishes(residual, about);
+        },
+        true, reason);
+    if (found != Found::nowhere) return false;
+    line.status = LineStatus::mistake;
+    line.reason = is_of_motion ? say("it does not hold to first order near any state of rest that was found")
+                               : say("it holds at none of the states of rest");
+    is_state_wrong_ = true;
+    return true;
+}
+
+/// Whether the line holds to first order near the states for which θ_0 stands.
+bool Marker::is_near_state(MarkedLine& line, const ex& residual, const RestStates::About& about) {
+    std::string reason;
+    const Found found =
+        found_at_rest([&](RestStates& states) { return states.vanishes_near(residual, about); }, true, reason);
+    if (found != Found::everywhere && found != Found::on_branch) return false;
+    line.status = LineStatus::right_near;
+    line.reason = std::move(reason);
+    return true;
+}
+
+/// Equilibria: θ = 0, or an equation that holds there.
+bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
+    if ((speaks_of_roots_ || says_rest()) && is_root(line, sides)) return true;
+    const bool is_of_motion = holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
+    if (says_rest() && !is_of_motion && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
+    if (!speaks_of_rest_ && !statement_->displayed) return false;
+    if (says_rest() &&
+        (is_angle_of_rest(line, *sides.lhs, sides.right) || is_angle_of_rest(line, *sides.rhs, sides.left)))
+        return true;
+    const auto is_state = [&](const Math& a, const ClaimText& b) {
+        return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
+               holds_letters_only(b.names, system_.scene());
+    };
+    const bool left = is_state(*sides.lhs, sides.right), right = is_state(*sides.rhs, sides.left);
+    if (!left && !right) return false;
+    const std::string name = left ? sides.left.text : sides.right.text,
+                      value = left ? sides.right.text : sides.left.text;
+    const auto checked = [&](const std::vector<std::pair<std::string, Expression>>& place) {
+        return check_equilibrium({system_.scene(), system_.mechanism(), place, system_.sheets()});
+    };
+    CheckedClaim found = checked({{name, parsed(value)}});
+    for (const BaseState& base : base_states(system_.scene())) {  // the others where they may rest
+        if (found.verdict == Verdict::proved) break;
+        std::vector<std::pair<std::string, Expression>> place = parsed(base);
+        for (auto& [q, expression] : place)
+            if (q == name) expression = parsed(value);
+        if (CheckedClaim other = checked(place); other.verdict == Verdict::proved) found = std::move(other);
+    }
+    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_))
+        return false;
+    if (found.verdict != Verdict::proved && holds_at_some_rest(line, sides)) return true;
+    line.checked = found;
+    notes_.back().claim = {};
+    line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::mistake;
+    line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : found.reason;
+    return true;
+}
+
+/// "with the roots": θ = π, or cos θ = g/(R Ω²), makes one of the conditions of rest zero, whether or not the
+/// system can stay there.
+bool Marker::is_root(MarkedLine& line, const Sides& sides) {
+    constexpr double largest = 3000;
+    constexpr std::size_t most_terms = 500;
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    const ex left = m.z->expand(truth_.value(sides.left.text)),
+             right = m.z->expand(truth_.value(sides.right.text));
+    if (!GiNaC::is_a<GiNaC::symbol>(left) && !GiNaC::is_a<GiNaC::function>(left)) return false;
+    for (const ex& condition : system_.conditions_of_rest()) {
+        if (m.z->tree_size(condition) > largest || rows.is_identity(rows.row(condition)) == true) continue;
+        const auto sum = fourier(m.z->expand(condition), *m.symbols, most_terms);
+        if (!sum) continue;
+        const ex there = expression(readable(*sum)).subs(left == right);  // in sines and cosines of single angles
+        if (rows.is_identity(rows.row(m.z->name(there))) != true) continue;
+        notes_.back().claim = {};
+        line.status = LineStatus::right;
+        line.reason = say("a root of the condition of rest");
+        return true;
+    }
+    return false;
+}
+
+/// A line that is one of the conditions of rest but for a constant factor, inputs and multipliers being open.
+bool Marker::is_condition_of_rest(MarkedLine& line, const Sides& sides) {
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    std::vector<GiNaC::symbol> open = m.moving();
+    const std::vector<GiNaC::symbol>& lambda = system_.equations().lambda;
+    open.insert(open.end(), lambda.begin(), lambda.end());
+    const auto slopes = [&](const ex& e) { return m.z->pull_back({{e, 1}}, open); };
+    const ex residual = m.z->name(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    const std::vector<ex> own = slopes(residual);
+    for (const ex& condition : system_.conditions_of_rest()) {
+        if (rows.is_identity(rows.row(condition)) == true) continue;
+        const std::vector<ex> others = slopes(condition);
+        bool is_multiple = true;
+        for (std::size_t k = 0; is_multiple && k < open.size(); ++k)
+            is_multiple = is_identically_zero(m.z->name(condition * own[k] - residual * others[k]), m);
+        if (!is_multiple) continue;
+        notes_.back().claim = {};
+        line.status = LineStatus::right;
+        line.reason = say("of states of rest");
+        return true;
+    }
+    return false;
+}
+
+/// Whether a rate stands in it that vanishes at rest: not that of a function of time, which moves the support.
+bool Marker::holds_rates(const Math& math) const {
+    const bool is_letter = (math.kind == Kind::letter || math.kind == Kind::applied) && math.dots > 0;
+    const std::string name = is_letter ? letters_.name_of(math.letter).value_or("") : "";
+    if (is_letter && !letters_.is_function(name) && !is_input(name)) return true;
+    if (math.kind == Kind::rate) return true;
+    return std::any_of(math.args.begin(), math.args.end(), [&](const MathPtr& arg) { return holds_rates(*arg); });
+}
+
+/// "In equilibrium. We find": rest is spoken of here, or was a line before.
+bool Marker::says_rest() const {
+    return speaks_of_rest_ || is_rest_assumed_;
+}
+
+bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
+    if (at_rest_of_rates_) {
+        const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+        MotionRows& rows = system_.rows();
+        if (rows.is_identity(rows.row(system_.without_accelerations(residual))) == true) {
+            line.status = LineStatus::right;
+            line.reason = say("where the accelerations of the coordinates are zero");
+            notes_.back().claim = {};
+            return true;
+        }
+    }
+    if (!says_rest() || holds_rates(*sides.lhs) || holds_rates(*sides.rhs)) return false;  // at rest all vanish
+    LineClaim claim = notes_.back().claim;
+    claim.at_rest = true;
+    if (has_quantities(sides)) return false;
+    try {
+        const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_in_motion());
+        const auto& other = verdicts[0].other_branch;
+        const bool on_a_branch = other && other->verdict == Verdict::proved;
+        const bool is_vacuous = verdicts[0].verdict == Verdict::vacuous;
+        if ((is_vacuous || verdicts[0].verdict == Verdict::undecided) && !on_a_branch) {
+            line.status = LineStatus::undecided;
+            line.reason = is_vacuous ? say("no state of rest was found") : say("it could not be evaluated");
+            notes_.back().claim = {};
+            return true;
+        }
+        if (verdicts[0].verdict == Verdict::refuted && !on_a_branch) return false;
+    } catch (const std::exception&) {
+        return false;
+    }
+    notes_.back().claim = claim;
+    line.status = LineStatus::right;
+    line.reason = say("of states of rest");
+    return true;
+}
+
+}  // namespace alembert

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Values in numbers, as a page has them at its end: ω = 4.47 rad/s, with the values that it states. They hold to
+// the digits that are written.
+#include "check/derivation/marker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/language/say.hpp"
+#include "scene/unit_text.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+/// A number as it is written, with its unit.
+struct Printed {
+    const Math* number = nullptr;
+    std::string unit = {};
+    bool is_negative = false;
+    bool is_rounded() const { return number != nullptr && number->text.find_first_of(".eE") != std::string::npos; }
+};
+
+/// 26.5 N of plain text, where N is a letter: letters behind a number with a point that are a unit. They are read
+/// as one only where one of them is no name of the scene.
+std::string unit_of_letters(const Math& product, const Letters& letters) {
+    std::string unit;
+    bool is_strange = false;
+    for (std::size_t k = 1; k < product.args.size(); ++k) {
+        const bool is_power = product.args[k]->kind == Kind::power;
+        const Math& letter = is_power ? *product.args[k]->args[0] : *product.args[k];
+        if (letter.kind != Kind::letter || letter.dots > 0 || !letter.letter.index.empty()) return "";
+        if (is_power && product.args[k]->args[1]->kind != Kind::number) return "";
+        is_strange = is_strange || !letters.name_of(letter.letter);
+        unit += (unit.empty() ? "" : "*") + letter.letter.base +
+                (is_power ? "^" + product.args[k]->args[1]->text : "");
+    }
+    return is_strange && meaning_of_unit(unit) ? unit : "";
+}
+
+Printed printed(const Math& side, const Letters& letters) {
+    if (side.kind == Kind::number) return {.number = &side};
+    if (side.kind == Kind::negate) {
+        Printed inner = printed(*side.args[0], letters);
+        inner.is_negative = !inner.is_negative;
+        return inner;
+    }
+    if (side.kind == Kind::quantity && side.args[0]->kind == Kind::number)
+        return {.number = side.args[0].get(), .unit = side.text};
+    if (side.kind != Kind::product || side.args[0]->kind != Kind::number) return {};
+    Printed result{.number = side.args[0].get(), .unit = unit_of_letters(side, letters)};
+    return result.is_rounded() && !result.unit.empty() ? result : Printed{};
+}
+
+/// What one unit of the last digit is worth.
+double last_digit(const std::string& text) {
+    const std::size_t power = text.find_first_of("eE"), point = text.find('.');
+    const std::string mantissa = text.substr(0, power);
+    const int exponent = power == std::string::npos ? 0 : std::atoi(text.c_str() + power + 1);
+    const int digits = point == std::string::npos ? 0 : static_cast<int>(mantissa.size() - point) - 1;
+    return std::pow(10.0, exponent - digits);
+}
+
+}  // namespace
+
+bool Marker::holds_letters_that_move(const Math& math) const {
+    std::map<Letter, int> all;
+    collect_letters(math, all);
+    return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        return letters_.moves(letters_.name_of(item.first).value_or(""));
+    });
+}
+
+/// Whether one side is a value in numbers; then it is held against the other with the values that the derivation
+/// states, else with those of the scene.
+bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
+    constexpr double in_last_digit = 2, rounding_on_the_way = 2e-3;
+    const Printed left = printed(lhs, letters_), right = printed(rhs, letters_);
+    if ((left.number == nullptr) == (right.number == nullptr)) return false;
+    const Printed& value = left.number != nullptr ? left : right;
+    const Math& other = left.number != nullptr ? rhs : lhs;
+    const bool may_be_rounded = relation == Relation::approximately && value.number->text != "0" &&
+                                !holds_rates(other) && !holds_letters_that_move(other);
+    if (!value.is_rounded() && value.unit.empty() && !may_be_rounded) return false;
+    std::map<Letter, int> all;
+    collect_letters(other, all);
+    const bool is_known = std::all_of(all.begin(), all.end(),
+                                      [&](const auto& item) { return letters_.name_of(item.first).has_value(); });
+    if (all.empty() || (!is_known && lone_letter(other).letter != nullptr)) return false;  // it defines the letter
+    const auto unit = value.unit.empty() || value.unit == "deg" ? std::nullopt : meaning_of_unit(value.unit);
+    const double scale = value.unit == "deg" ? std::acos(-1.0) / 180 : unit ? unit->factor : 1;
+    const double written = (value.is_negative ? -1 : 1) * std::atof(value.number->text.c_str()) * scale;
+    const double digit = last_digit(value.number->text) * scale;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("a value in numbers; lines are judged for all values");
+    if (!is_known) return true;
+    const Mechanism& m = system_.mechanism();
+    const ex truth = m.z->expand(truth_.value(claim_text(other, as_written()).text));
+    GiNaC::exmap own;
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.independent) own[p.symbol] = p.number();
+    const auto fits = [&](const GiNaC::exmap& values) -> std::optional<bool> {
+        const ex there = truth.subs(values, GiNaC::subs_options::no_pattern).evalf();
+        if (!GiNaC::is_a<GiNaC::numeric>(there) || !GiNaC::ex_to<GiNaC::numeric>(there).is_real())
+            return std::nullopt;
+        const double exact = GiNaC::ex_to<GiNaC::numeric>(there).to_double();
+        return std::abs(exact - written) <= std::max(in_last_digit * digit, rounding_on_the_way * std::abs(exact));
+    };
+    const std::optional<bool> stated = fits(special_values_);
+    if (!stated && fits(own) != true) return true;
+    line.status = stated == false ? LineStatus::mistake : LineStatus::right;
+    line.reason = stated == false ? say("it is another number with the values that stand above")
+                                  : say("to the digits that are written");
+    if (line.status == LineStatus::mistake)
+        line.claim = claim_text(other, as_written()).text + fmt::format(" = {:.6g}", written);
+    return true;
+}
+
+}  // namespace alembert

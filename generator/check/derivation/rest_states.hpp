@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// States of rest or of steady motion in numbers, for several values of the parameters: does a line hold at them,
+/// at some of them, or to first order near them?
+///
+///     RestStates states(system, {.special = {{k1, k2}}});     // where k1 = k2
+///     states.vanishes(residual, {})                           // at all of them, on a branch, or nowhere
+///     states.is_frequency(square, {})                         // of small vibrations about one of them
+///     states.vanishes_near(residual, {.places = {{theta_0, theta}}})
+///
+/// They are found by Newton's method, in least squares, from several starts. This says what a line may mean, and
+/// is no proof.
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "check/derivation/system.hpp"
+#include "program/interpret.hpp"
+
+namespace alembert {
+
+class RestStates {
+public:
+    struct Kind {
+        GiNaC::exmap special = {};  ///< values of parameters, in others
+        bool steady = false;        ///< whether coordinates on which nothing depends may move at a constant rate
+    };
+    /// `system` must outlive it.
+    RestStates(const DerivedSystem& system, Kind kind);
+
+    enum class Found {
+        everywhere,  ///< at all that were found
+        on_branch,   ///< at those that are stable or next to the scene's start, or where the line names the place
+        elsewhere,   ///< at others alone
+        nowhere,
+        unknown,  ///< too few were found
+    };
+    /// What an expression is about.
+    struct About {
+        GiNaC::exmap places = {};  ///< letters for the values of coordinates at the state: θ_0 ↦ θ
+        bool names_place = false;  ///< whether it states the value of a coordinate: all of its terms may be zero
+        bool of_any = false;       ///< whether it may be about any of the states
+    };
+    /// Whether the expression vanishes at the states.
+    Found vanishes(const GiNaC::ex& residual, const About& about);
+    /// Whether it vanishes to first order on all motions near a state that have its momenta.
+    Found vanishes_near(const GiNaC::ex& residual, const About& about);
+    /// Whether i√square solves the equations near a state: with all forces, or without those that resist.
+    Found is_frequency(const GiNaC::ex& square, const About& about);
+
+    const Kind& kind() const { return kind_; }
+    bool has_steady_motions() const { return !cyclic_.empty(); }
+
+private:
+    using Matrix = Eigen::MatrixXd;
+    struct Nodes {
+        std::vector<int> roots, needed;
+    };
+    struct Place {
+        State<double> state;
+        bool is_own = false;  ///< whether it is the nearest to the scene's start
+    };
+    /// Of the equations near a state: inertia, forces by rates, the resisting ones by rates, forces by
+    /// coordinates, constraints, momenta by rates and by coordinates.
+    struct Near {
+        Matrix mass, by_rates, resisting, by_places, rows, momenta_by_rates, momenta_by_places;
+    };
+    Nodes lowered(const std::vector<GiNaC::ex>& list, const GiNaC::exmap& places);
+    std::vector<double> values(const Nodes& nodes, const State<double>& at) const;
+    double drawn(double own, int set, std::size_t k) const;
+    double& unknown(State<double>& state, Eigen::Index k) const;
+    std::optional<State<double>> reached(State<double> from) const;
+    const std::vector<Place>& places(int set);
+    std::optional<Near> near(const State<double>& at) const;
+    static bool solves(const Near& near, double square, bool resisting);
+    bool is_stable(const State<double>& at) const;
+    /// What a test finds at a state; nothing where it has no value.
+    struct Seen {
+        bool holds = false, is_told = true;  ///< told: not because all of its terms are zero there
+    };
+    Found weighed(const About& about, const std::function<std::optional<Seen>(const State<double>&)>& test);
+    bool is_trivial(const State<double>& at, const About& about) const;
+
+    const DerivedSystem& system_;
+    Kind kind_;
+    bool is_usable_ = false;
+    std::vector<std::size_t> cyclic_;  ///< coordinates that move
+    Eigen::Index coordinates_ = 0, multipliers_ = 0, conditions_ = 0, holonomic_ = 0;
+    Program program_;
+    Nodes rest_;  ///< the conditions and the constraints, then their slopes by the unknowns
+    Nodes near_;
+    std::vector<std::vector<Place>> sets_;
+};
+
+}  // namespace alembert
