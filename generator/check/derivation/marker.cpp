@@ -20,6 +20,15 @@ using Kind = Math::Kind;
 
 namespace {
 
+bool is_number(const Math& side) {
+    if (side.kind == Kind::number) return true;
+    const bool is_form = side.kind == Kind::negate || side.kind == Kind::quotient || side.kind == Kind::product ||
+                         side.kind == Kind::quantity;
+    return (side.kind == Kind::letter && side.letter.base == "pi") ||
+           (is_form &&
+            std::all_of(side.args.begin(), side.args.end(), [](const MathPtr& arg) { return is_number(*arg); }));
+}
+
 bool is_rate_alone(const Math& side) {
     return (side.kind == Kind::letter && side.dots == 1) ||
            (side.kind == Kind::rate && side.dots == 1 && side.args[0]->kind == Kind::letter);
@@ -77,6 +86,8 @@ void Marker::run() {
         if (speaks_of_general_case(statement_->words)) special_values_.clear();
         hear_special_values(statement_->words);
         is_case_settled_ = is_case_settled_ || holds_sentence(statement_->words);
+        begins_case_ =
+            begins_case_ || ends_sentence(statement_->words) || statement_->words.find("- ") != std::string::npos;
         speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
                            speaks_of_first_order(words_after_);  // … for small angles
         hear(statement_->words);
@@ -104,13 +115,24 @@ void Marker::line(std::size_t s, std::size_t k) {
     line.length = rhs.offset + rhs.length - line.offset;
     line.line = written_.line(line.offset);
     line.column = written_.column(line.offset);
-    line.source = written_.text.substr(lhs.offset, rhs.offset + rhs.length - lhs.offset);
+    line.source = in_whole_brackets(written_.text, lhs.offset, rhs.offset + rhs.length);
     notes_.emplace_back();
+    const Lone lone = lone_letter(lhs);
+    is_new_law_ = lone.letter != nullptr && !quantity_of(lone.letter->letter) &&
+                  !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
+                  !seen_.contains(lone.letter->letter);
+    for (const Math* side : {&lhs, &rhs}) {
+        std::map<Letter, int> all;
+        collect_letters(*side, all);
+        for (const auto& [letter, dots] : all) seen_.insert(letter);
+    }
     speaks_of_small_ = speaks_of_small_ || statement_->relations[k] == Relation::approximately;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
         if (line.status == LineStatus::mistake) is_of_authors_function(line, lhs, rhs);
     } catch (const NoMeaning& not_understood) {
+        if (not_understood.unknown && !statement_->displayed && is_number(rhs))
+            under_condition_ = lines_of_condition;
         const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
         line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
         line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
@@ -138,6 +160,20 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
            1;
 }
 
+/// U(θ) of which the words say so, or in which a momentum stands: no potential of the forces.
+bool Marker::is_effective_potential(const Math& lhs, const Math& rhs) const {
+    const Lone own = lone_letter(lhs);
+    if (own.letter == nullptr || !own.letter->letter.index.empty()) return false;
+    if (own.letter->letter.base != "U" && own.letter->letter.base != "V") return false;
+    if (speaks_of_effective_potential(statement_->words)) return true;
+    std::map<Letter, int> all;
+    collect_letters(rhs, all);
+    return std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        const std::string name = letters_.name_of(item.first).value_or("");
+        return kept_.contains(name) || (name.starts_with("p_") && known_.contains(name));
+    });
+}
+
 /// A letter of the author's for what changes in motion.
 bool Marker::is_of_motion(const Math& side) const {
     const auto name = side.kind == Kind::letter ? letters_.name_of(side.letter) : std::nullopt;
@@ -148,6 +184,8 @@ bool Marker::is_of_motion(const Math& side) const {
 
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
     if (relation == Relation::proportional) {  // among words it states a condition
+        if (!statement_->displayed && (holds_rates(lhs) || holds_letters_that_move(lhs)))
+            under_condition_ = lines_of_condition;  // "while x' < 0"
         line.status = statement_->displayed ? LineStatus::not_understood : LineStatus::not_about_scene;
         line.reason = say("only equations are judged");
         return;
@@ -161,10 +199,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     }
     if (judge_virtual(line, lhs, rhs)) return;
     if (is_condition_on_potential(line, lhs, rhs)) return;
-    const Lone own = lone_letter(lhs);
-    if (own.letter != nullptr && (own.letter->letter.base == "U" || own.letter->letter.base == "V") &&
-        own.letter->letter.index.empty() && speaks_of_effective_potential(statement_->words))
-        letters_.leave_to_author(own.letter->letter);
+    if (is_effective_potential(lhs, rhs)) letters_.leave_to_author(lone_letter(lhs).letter->letter);
     if (is_of_state(line, lhs, rhs) || judge_value(line, lhs, rhs, relation)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
@@ -281,8 +316,8 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     note_forces(sides);
     if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
-    const bool founded =
-        is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
+    const bool founded = is_new_law_ || is_identity ? is_new_law_ || !wrong || rows.is_identity(own) == true
+                                                    : own_.founds(own) || own_.founds(row);
     if (founded) {
         note_reduced(sides, row);
         return;
@@ -293,14 +328,15 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) || holds_after_impact(line, sides)) return;
+    if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) || is_assumption(line, sides) ||
+        holds_after_impact(line, sides) || is_reduced_momentum(line, sides))
+        return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
-        is_equilibrium(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
-        is_on_branch(line, sides) ||
+        is_equilibrium(line, sides) || is_given_value(line, sides) || is_on_branch(line, sides) ||
 
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
         holds_at_rest(line, sides) || holds_at_some_rest(line, sides) || holds_near(line, sides, row.residual) ||
-        follows(line, sides) || follows_with_all_forces(line, sides))
+        holds_near_some_rest(line, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
     if (deviates_from_motion()) {
         line.status = LineStatus::undecided;

@@ -68,6 +68,7 @@ private:
     void line(std::size_t statement, std::size_t side);
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     bool is_of_motion(const Math& side) const;
+    bool is_effective_potential(const Math& lhs, const Math& rhs) const;
     bool holds_letters_that_move(const Math& math) const;
     bool judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -96,7 +97,9 @@ private:
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
     bool is_assumption(MarkedLine& line, const Sides& sides);
+    bool is_reduced_momentum(MarkedLine& line, const Sides& sides);
     bool deviates_from_motion() const;
+    bool holds_near_some_rest(MarkedLine& line, const GiNaC::ex& residual);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
     bool is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value);
@@ -108,7 +111,9 @@ private:
                     bool may_be_steady);
     bool holds_at_some_rest(MarkedLine& line, const Sides& sides);
     bool names_coordinate(const Math& side) const;
-    void know_state_letter(const Letter& letter);
+    bool is_steady_value(const Math& side, const Math& letter);
+    GiNaC::symbol coordinate_of_value(const Letter& letter) const;
+    void know_state_letter(const Letter& letter, const GiNaC::symbol& value);
     bool is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_near_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
@@ -154,6 +159,7 @@ private:
     void take_in_special_case(const Math& lhs, const Math& rhs);
     void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);
+    bool follows_with(const GiNaC::ex& residual, const GiNaC::exmap& values);
     void settle_in_special_case(MarkedLine& line);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
@@ -168,6 +174,7 @@ private:
     bool assumes_rest() const;
     bool is_parameter_identity(const Math& lhs, const Math& rhs);
     bool holds_at_pose(const Sides& sides);
+    const std::vector<GiNaC::symbol>& still_after_impact();
     bool holds_after_impact(MarkedLine& line, const Sides& sides);
     bool is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool speaks_of_acceleration() const;
@@ -228,6 +235,8 @@ private:
     std::optional<BaseState> near_;     ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;      ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;   ///< whether its ∂/∂ψ' have been those of the independent rates
+    std::set<Letter> seen_;             ///< letters of this line and those before
+    bool is_new_law_ = false;           ///< whether the line states a letter that stands nowhere before
     bool goes_on_ = false;              ///< whether the words only join two formulas of one sentence
     bool speaks_of_axes_ = false;       ///< whether the author has laid axes of his own
     bool has_own_gauge_ = false;        ///< whether its L differs from the scene's by a total derivative
@@ -244,9 +253,12 @@ private:
     GiNaC::exmap places_;              ///< their symbols, with the coordinates
     bool are_states_of_rest_ = false;  ///< whether a line has shown that they are values at rest
     bool is_state_wrong_ = false;      ///< whether one of these lines was wrong
-    GiNaC::exmap special_values_;      ///< of parameters, as the derivation states them
-    bool is_case_settled_ = false;     ///< whether a sentence has ended since, and they may hold no longer
-    std::set<std::string> kept_;       ///< names of constants of the motion that are momenta, or written as such
+    bool begins_case_ = true;      ///< whether a sentence or an item of a list has begun since the last of them
+    GiNaC::exmap case_;            ///< those of the last sentence or item of a list
+    GiNaC::exmap special_values_;  ///< of parameters, as the derivation states them
+    std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
+    bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
+    std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word

@@ -37,7 +37,7 @@ bool speaks_of_time(const Math& math) {
 
 /// "Steady precession." is meant until the words go on to the motion in general.
 void Marker::hear_steady_motion(const std::string& words) {
-    constexpr int most_lines = 4;
+    constexpr int most_lines = 8;
     if (mentions_special_motion(words))
         steady_lines_ = most_lines;
     else if (speaks_of_general_case(words) || speaks_of_motion(words))
@@ -79,7 +79,8 @@ std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
                                !statement_->displayed && system_.mechanism().size() > 1;
-    const bool is_steady = steady_lines_ > 0 && !is_accelerated(lhs) && !is_accelerated(rhs);
+    const bool is_steady =
+        steady_lines_ > 0 && !is_accelerated(lhs) && !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
     const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady;
     if (keeps_its_start(lhs, rhs) || (!is_energy && is_conditional))
         return say("the words state a condition for it; lines are judged for all motions");
@@ -134,6 +135,18 @@ bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math&
     return system_.rows().holds(system_.rows().row(m.time_derivative({kept})[0])) == true;
 }
 
+/// The rates that are zero just after the scene's impulses.
+const std::vector<GiNaC::symbol>& Marker::still_after_impact() {
+    if (still_after_impact_) return *still_after_impact_;
+    still_after_impact_.emplace();
+    for (const GiNaC::symbol& rate : system_.mechanism().qdot) {
+        const std::vector<CheckedClaim> verdicts =
+            checked_alone({.lhs = rate.get_name(), .rhs = "0", .at_impact = true});
+        if (!verdicts.empty() && verdicts[0].verdict == Verdict::proved) still_after_impact_->push_back(rate);
+    }
+    return *still_after_impact_;
+}
+
 /// Velocities, displacements and energies of an impact may be written for the pose in which it happens.
 bool Marker::holds_at_pose(const Sides& sides) {
     const bool is_of_motion = displacements_ != nullptr || holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
@@ -143,9 +156,13 @@ bool Marker::holds_at_pose(const Sides& sides) {
     for (const Coordinate& c : system_.scene().coordinates)
         for (const GiNaC::symbol& q : m.q)
             if (q.get_name() == c.name.text && c.initial) pose[q] = truth_.value(c.initial);
-    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-    if (m.z->depends(residual, m.qddot)) return false;
-    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, pose)[0]), m);
+    for (const GiNaC::symbol& rate : still_after_impact()) pose[rate] = 0;
+    const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text);
+    if (m.z->depends(left - right, m.qddot)) return false;
+    const auto holds = [&](const ex& residual) {
+        return is_identically_zero(m.z->name(substitute(*m.z, {residual}, pose)[0]), m);
+    };
+    return holds(left - right) || holds(GiNaC::pow(left, 2) - GiNaC::pow(right, 2));  // a speed has no sign
 }
 
 }  // namespace alembert

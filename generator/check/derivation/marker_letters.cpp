@@ -148,7 +148,8 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
-                if (!statement.displayed && value.kind == Kind::number) continue;  // "at θ = 0"
+                const bool is_number = value.kind == Kind::number || value.kind == Kind::quantity;
+                if (!statement.displayed && is_number) continue;  // "at θ = 0"
                 if (of_motion && statement.consequence)
                     continue;  // "we get N = …" of the force that it determines
                 const bool is_explained =
@@ -366,7 +367,8 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
                  truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, binding.point, true);
-        const bool is_size = power == 1 && binding.text.starts_with("sqrt(");  // v = l θ' has a sign
+        const bool is_size = power == 1 && (binding.text.starts_with("sqrt(") ||  // v = l θ' has a sign
+                                            (letter.letter.base == "omega" && letter.letter.index.empty()));
         if (is_size && rows.is_identity(rows.row(GiNaC::pow(truth, 2) - GiNaC::pow(value, 2))) == true)
             return tell(value, binding.point, true);
         const bool is_said = binding.spoken && speaks_of_motion_of(statement_->words, spoken_);

@@ -154,27 +154,37 @@ void Marker::set_special_value(const ex& name, const ex& value) {
     for (auto& [other, known] : special_values_)
         known = known.subs(name == plain, GiNaC::subs_options::no_pattern);
     special_values_[name] = plain;
+    if (begins_case_) case_.clear();
+    begins_case_ = false;
+    const ex own = value.subs(case_, GiNaC::subs_options::no_pattern);
+    for (auto& [other, known] : case_) known = known.subs(name == own, GiNaC::subs_options::no_pattern);
+    if (!own.has(name)) case_[name] = own;
 }
 
 /// Whether the line follows from the equations of motion for the values that the derivation has stated.
 bool Marker::follows_in_special_case(const ex& residual) {
-    if (special_values_.empty()) return false;
+    return follows_with(residual, special_values_) ||
+           (case_.size() < special_values_.size() && follows_with(residual, case_));
+}
+
+bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
+    if (values.empty()) return false;
     const Mechanism& m = system_.mechanism();
     std::vector<ex> all{residual};
     for (int i = 0; i < m.size(); ++i) all.push_back(system_.motion_residual(i));
     std::vector<ex> special;
     try {
-        special = substitute(*m.z, all, special_values_);
+        special = substitute(*m.z, all, values);
     } catch (const std::exception&) {  // m = 0 where something is divided by m
         return false;
     }
-    const auto follow = [&](const std::vector<ex>& values, bool bound) {
+    const auto follow = [&](const std::vector<ex>& parts, bool bound) {
         MotionRows& rows = system_.rows();
         std::vector<MotionRow> given;
         std::vector<const MotionRow*> pointers;
-        for (std::size_t k = 1; k < values.size(); ++k) given.push_back(rows.row(values[k]));
+        for (std::size_t k = 1; k < parts.size(); ++k) given.push_back(rows.row(parts[k]));
         for (const MotionRow& row : given) pointers.push_back(&row);
-        return rows.follows(rows.row(values[0]), pointers, bound);
+        return rows.follows(rows.row(parts[0]), pointers, bound);
     };
     if (follow(special, true)) return true;
     if (!speaks_of_small_ || !m.z->depends(residual, m.qddot))

@@ -79,19 +79,44 @@ bool Marker::is_along_motion(MarkedLine& line, const Sides& sides) {
 
 /// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.
 bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
-    const auto is_lone = [&](const Math& math) { return math.kind == Kind::letter && math.dots == 0; };
-    const bool left = is_lone(*sides.lhs) && sides.right.names.empty();
-    const bool right = is_lone(*sides.rhs) && sides.left.names.empty();
+    const bool left = !sides.left.names.empty() && sides.right.names.empty() && sides.right.text != "0";
+    const bool right = !sides.right.names.empty() && sides.left.names.empty() && sides.left.text != "0";
     if (!left && !right) return false;
+    const std::set<std::string>& names = left ? sides.left.names : sides.right.names;
+    if (std::any_of(names.begin(), names.end(),
+                    [&](const std::string& name) { return !letters_.is_of_scene(name) || letters_.moves(name); }))
+        return false;
     const std::string name = left ? sides.left.text : sides.right.text;
-    if (!letters_.is_of_scene(name) || letters_.moves(name)) return false;
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value of {}; lines are judged for all values", name);
     return true;
 }
 
+/// p_x = (2 M + m) x' with rolling put in for the other rates: the momentum of the reduced Lagrangian, of
+/// displacements in which the coordinates that no constraint binds stay.
+bool Marker::is_reduced_momentum(MarkedLine& line, const Sides& sides) {
+    const Mechanism& m = system_.mechanism();
+    const std::string& name = sides.left.text;
+    if (!name.starts_with("p_") || !known_.contains(name) || system_.equations().A.empty()) return false;
+    const std::vector<ex> momenta = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
+    const ex stated = truth_.value(sides.right.text);
+    std::vector<ex> factors;
+    for (std::size_t i = 0; i < m.q.size(); ++i) {
+        const bool is_bound = std::any_of(system_.equations().A.begin(), system_.equations().A.end(),
+                                          [&](const auto& row) { return !row[i].is_zero(); });
+        const bool is_it = name == "p_" + m.q[i].get_name();
+        factors.push_back(is_bound || is_it ? m.z->name(momenta[i] - (is_it ? stated : ex(0))) : ex(0));
+    }
+    if (system_.rows().is_bound(factors) != true) return false;
+    line.status = LineStatus::right;
+    line.reason = say("with the constraints put in");
+    notes_.back().claim = {};
+    return true;
+}
+
 /// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
 bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
+    const bool is_aside = statement_->offset > 1 && written_.text[statement_->offset - 1] == '(';
     const auto is_plain = [&](const Math& math) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
         std::map<Letter, int> all;
@@ -100,7 +125,6 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             const std::string name = letters_.name_of(item.first).value_or("");
             return name == "pi" || (letters_.is_of_scene(name) && !letters_.moves(name));
         });
-        const bool is_aside = statement_->offset > 1 && written_.text[statement_->offset - 1] == '(';
         const int most_dots =  // "if the hand is at rest, h'' = 0", "(r'' = 0)"
             is_aside || begins_condition_of_state(statement_->words) ? 2 : 1;
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
@@ -115,8 +139,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             return m.z->depends(value, system_.equations().lambda) || m.z->depends(value, m.qdot);
         });
     };
-    if (!moves(sides.left) && !moves(sides.right)) return false;
-    if (begins_condition_of_state(statement_->words) || ends_at_place(statement_->words))
+    if (!is_aside && !moves(sides.left) && !moves(sides.right)) return false;
+    if (speaks_of_special_case(statement_->words) || ends_at_place(statement_->words))
         under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");

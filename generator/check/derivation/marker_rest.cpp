@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <functional>
+
 #include "algebra/notation/readable.hpp"
 #include "base/language/say.hpp"
 #include "check/derivation/rest_states.hpp"
@@ -119,15 +121,23 @@ bool Marker::names_coordinate(const Math& side) const {
     return state_letters_.contains(inner.letter) || letters_.moves(letters_.name_of(inner.letter).value_or(""));
 }
 
-/// θ_0 of a coordinate θ: a symbol from now on.
-void Marker::know_state_letter(const Letter& letter) {
+/// θ of θ_0.
+GiNaC::symbol Marker::coordinate_of_value(const Letter& letter) const {
     Letter plain = letter;
     plain.index.clear();
-    const std::string name = letters_.free_name(identifier_of(letter)), coordinate = *letters_.name_of(plain);
-    const Mechanism& m = system_.mechanism();
+    const std::string name = *letters_.name_of(plain);
+    const std::vector<GiNaC::symbol>& all = system_.mechanism().q;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const GiNaC::symbol& q) { return q.get_name() == name; });
+    if (found == all.end()) throw NoMeaning{.reason = say("'{}' is no coordinate", name)};
+    return *found;
+}
+
+/// θ_0 of a coordinate θ, or Ω of a steady rate φ': a symbol from now on.
+void Marker::know_state_letter(const Letter& letter, const GiNaC::symbol& value) {
+    const std::string name = letters_.free_name(identifier_of(letter));
     const GiNaC::symbol symbol = system_.held(name);
-    for (const GiNaC::symbol& q : m.q)
-        if (q.get_name() == coordinate) places_[symbol] = q;
+    places_[symbol] = value;
     letters_.bind(letter, name);
     known_[name] = symbol;
     truth_.know(name, symbol);
@@ -147,7 +157,10 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     });
     const bool is_said = !from_rest_ && (says_rest() || is_named || steady_lines_ > 0 || are_states_of_rest_);
     const Lone lone = lone_letter(lhs);
+    const bool is_number = rhs.kind == Kind::quantity || lhs.kind == Kind::quantity;
+    if (is_number) return false;
     if (lone.letter != nullptr && lone.letter->letter.base == "omega" &&
+        !state_letters_.contains(lone.letter->letter) &&
         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
         (speaks_of_frequency_ || speaks_of_small_)) {  // ω² = g cos θ_0/l
         const std::string text = claim_text(rhs, as_written()).text;

@@ -193,6 +193,17 @@ bool Marker::deviates_from_motion() const {
                         [&](const BaseState& base) { return may_rest(base, system_); });
 }
 
+/// Whether it holds near the states of rest in numbers, or near those from which the author deviates.
+bool Marker::holds_near_some_rest(MarkedLine& line, const ex& residual) {
+    if (!speaks_of_small_ || displacements_ != nullptr) return false;
+    RestStates::About about;
+    if (!own_bases_.empty())
+        for (const auto& [q, text] : own_bases_.front().values)
+            for (const GiNaC::symbol& coordinate : system_.mechanism().q)
+                if (q == coordinate.get_name()) about.base[coordinate] = truth_.value(text);
+    return is_near_state(line, residual, about);
+}
+
 bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
     if (!speaks_of_small_) return false;
     const auto speaks_of = [&](MechanicalQuantity quantity) {

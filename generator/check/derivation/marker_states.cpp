@@ -109,13 +109,16 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
                !depends(std::vector{m.t});
     };
     const auto is_parameter = [&](const std::string& name) {
-        return letters_.is_of_scene(name) && (is_input(name) || !letters_.moves(name)) &&
-               !letters_.is_function(name);
+        return name == "pi" || (letters_.is_of_scene(name) && (is_input(name) || !letters_.moves(name)) &&
+                                !letters_.is_function(name));
     };
     const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
     if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter && !is_said)) return false;
     const auto name_of = [&](const auto& item) { return letters_.name_of(item.first).value_or(""); };
-    return std::any_of(all.begin(), all.end(), [&](const auto& item) { return is_parameter(name_of(item)); }) &&
+    const auto is_of_scene = [&](const auto& item) {
+        return name_of(item) != "pi" && is_parameter(name_of(item));
+    };
+    return std::any_of(all.begin(), all.end(), is_of_scene) &&
            std::all_of(all.begin(), all.end(), [&](const auto& item) {
                return item.second == 0 && (is_parameter(name_of(item)) || is_own(name_of(item)));
            });
@@ -126,6 +129,22 @@ bool Marker::assumes_rest() const {
     const bool is_chain = statement_->sides.size() > 2 && statement_->sides.back()->kind == Kind::number;
     return is_chain || is_rest_assumed_ || says_rest() || sets_value(statement_->words) ||
            speaks_of_special_motion(statement_->words) || begins_condition_of_state(statement_->words);
+}
+
+/// "Let θ = α and φ' = Ω be constant": a letter for the value of a coordinate or of its rate in a steady motion.
+bool Marker::is_steady_value(const Math& side, const Math& letter) {
+    const bool is_said = steady_lines_ > 0 || under_condition_ > 0 || speaks_of_constant_value(said_);
+    if (!is_said || side.kind != Kind::letter || side.dots > 1 || letter.kind != Kind::letter || letter.dots > 0)
+        return false;
+    const auto name = letters_.name_of(side.letter);
+    if (!name || letters_.name_of(letter.letter) || letters_.is_authors(letter.letter)) return false;
+    const Mechanism& m = system_.mechanism();
+    for (std::size_t i = 0; i < m.q.size(); ++i)
+        if (m.q[i].get_name() == *name) {
+            know_state_letter(letter.letter, side.dots == 0 ? m.q[i] : m.qdot[i]);
+            return true;
+        }
+    return false;
 }
 
 /// μ = m_1 m_2/(m_1 + m_2) where the scene has it so.
@@ -162,6 +181,8 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
             if (name && (!letters_.is_of_scene(*name) || letters_.moves(*name)))  // θ(0), V''(0)
                 return tell(say("a value at one moment; lines are judged for all motions"));
         }
+    if (is_steady_value(lhs, rhs) || is_steady_value(rhs, lhs))
+        return tell(say("it describes a state; lines are judged for all motions"));
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
@@ -172,7 +193,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         try {
             for (const auto& [letter, dots] : all)
                 if (is_value_of_state(letter) && !letters_.is_authors(letter) && !state_letters_.contains(letter))
-                    know_state_letter(letter);
+                    know_state_letter(letter, coordinate_of_value(letter));
             if (is_of_state_letter(line, lhs, rhs)) return true;
         } catch (const NoMeaning& reason) {  // a deviation is introduced here
             if (reason.unknown && determine(line, lhs, rhs, *reason.unknown)) return true;

@@ -59,7 +59,10 @@ std::vector<std::size_t> cyclic_coordinates(const DerivedSystem& system) {
     for (const auto& row : e.A) all.insert(all.end(), row.begin(), row.end());
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < m.q.size(); ++i)
-        if (std::none_of(all.begin(), all.end(), [&](const ex& one) { return m.z->depends(one, {m.q[i]}); }))
+        if (std::none_of(all.begin(), all.end(), [&](const ex& one) {
+                return m.z->depends(one, {m.q[i]}) &&
+                       !is_identically_zero(m.z->name(m.z->pull_back({{one, 1}}, {m.q[i]})[0]), m);
+            }))
             result.push_back(i);
     return result;
 }
@@ -331,7 +334,7 @@ RestStates::Found RestStates::vanishes(const ex& residual, const About& about) {
 RestStates::Found RestStates::vanishes_near(const ex& residual, const About& given) {
     About about = given;
     about.names_place = false;
-    about.of_any = !about.places.empty();  // the author has said which he means
+    about.of_any = !about.places.empty() || !about.base.empty();  // the author has said which he means
     const Mechanism& m = system_.mechanism();
     if (!is_usable_ || m.z->tree_size(residual) > longest) return Found::unknown;
     std::vector<GiNaC::symbol> by = m.qddot;
@@ -339,15 +342,19 @@ RestStates::Found RestStates::vanishes_near(const ex& residual, const About& giv
         by.insert(by.end(), list->begin(), list->end());
     std::vector<ex> list = m.z->pull_back({{residual, 1}}, by);
     list.push_back(residual);
+    for (const auto& [coordinate, value] : about.base) list.push_back(coordinate - value);
     const Nodes nodes = lowered(list, about.places);
     const Eigen::Index n = coordinates_, columns = 3 * n + multipliers_;
     return weighed(about, [&](const State<double>& at) -> std::optional<Seen> {
         const std::vector<double> here = values(nodes, at);
         const std::optional<Near> there = near(at);
         if (!there || !are_finite(here)) return std::nullopt;
+        if (std::any_of(here.begin() + columns + 1, here.end(),
+                        [](double away) { return std::abs(std::sin(away / 2)) > alike; }))
+            return std::nullopt;
         const Eigen::Map<const Eigen::VectorXd> slopes(here.data(), columns);
         const double size = slopes.norm();
-        if (std::abs(here.back()) > alike * std::max(size, 1.0)) return Seen{};
+        if (std::abs(here[static_cast<std::size_t>(columns)]) > alike * std::max(size, 1.0)) return Seen{};
         if (size < alike) return Seen{.holds = true, .is_told = false};
         const Eigen::Index moving = there->momenta_by_rates.rows();
         Matrix rows = Matrix::Zero(n + 3 * multipliers_ + moving, columns);

@@ -41,6 +41,7 @@ public:
     struct About {
         GiNaC::exmap places = {};  ///< letters for the values of coordinates at the state: θ_0 ↦ θ
         bool names_place = false;  ///< whether it states the value of a coordinate: all of its terms may be zero
+        GiNaC::exmap base = {};    ///< values of coordinates at the states that are meant; empty for all
         bool of_any = false;       ///< whether it may be about any of the states
     };
     /// Whether the expression vanishes at the states.

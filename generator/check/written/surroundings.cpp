@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 namespace alembert {
 
@@ -31,6 +32,44 @@ bool is_conditioned_behind(const Written& written, const WrittenStatement& state
     static const std::set<std::string> conditions{"at",  "when", "if", "for", "bei", "falls", "wenn",
                                                   "für", "在",   "当", "en",  "si",  "pour"};
     return conditions.contains(words) && written.text.substr(open, close - open).find('=') != std::string::npos;
+}
+
+std::string in_whole_brackets(const std::string& text, std::size_t begin, std::size_t end) {
+    end = std::min(end, text.size());
+    begin = std::min(begin, end);
+    constexpr std::string_view opening = "([{", closing = ")]}";
+    std::string open;  // those that are not closed
+    std::string lost;  // those that close none
+    for (std::size_t k = begin; k < end; ++k) {
+        if (k > 0 && text[k - 1] == '\\' && (text[k] == '[' || text[k] == ']' || text[k] == '(' || text[k] == ')'))
+            continue;  // \[ begins a formula
+        if (opening.find(text[k]) != std::string_view::npos) open += text[k];
+        const std::size_t kind = closing.find(text[k]);
+        if (kind == std::string_view::npos) continue;
+        if (!open.empty() && open.back() == opening[kind])
+            open.pop_back();
+        else
+            lost += opening[kind];
+    }
+    static constexpr std::string_view before[] = {"\\right", "\\bigr", "\\Bigr", "\\big", "\\Big", " "};
+    while (!open.empty() && end < text.size()) {
+        std::size_t at = end;
+        for (const std::string_view word : before)
+            if (std::string_view(text).substr(at).starts_with(word)) at += word.size();
+        if (at >= text.size() || text[at] != closing[opening.find(open.back())]) break;
+        end = at + 1;
+        open.pop_back();
+    }
+    static constexpr std::string_view behind[] = {"\\left", "\\bigl", "\\Bigl", "\\big", "\\Big"};
+    for (std::size_t k = 0; k < lost.size() && begin > 0; ++k) {
+        std::size_t at = begin;
+        while (at > 0 && text[at - 1] == ' ') --at;
+        if (at == 0 || text[at - 1] != lost[k]) break;
+        begin = at - 1;
+        for (const std::string_view word : behind)
+            if (std::string_view(text).substr(0, begin).ends_with(word)) begin -= word.size();
+    }
+    return text.substr(begin, end - begin);
 }
 
 bool is_limit(const Written& written, const WrittenStatement& statement) {

@@ -15,6 +15,10 @@ std::string words_behind(const Written& written, const WrittenStatement& stateme
 /// Whether the formula behind it is its condition: "… at $y = -l$".
 bool is_conditioned_behind(const Written& written, const WrittenStatement& statement);
 
+/// The text from `begin` to `end` with the brackets at its ends whose other halves are within: trees of (a + b) c
+/// begin behind the bracket.
+std::string in_whole_brackets(const std::string& text, std::size_t begin, std::size_t end);
+
 /// Whether its sentence has taken a limit before it: "for $M\to\infty$ we get …".
 bool is_limit(const Written& written, const WrittenStatement& statement);
 

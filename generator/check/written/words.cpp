@@ -186,6 +186,13 @@ bool speaks_of_effective_potential(std::string_view words) {
                       "有效势*|等效势*");
 }
 
+bool speaks_of_constant_value(std::string_view words) {
+    return has_phrase(
+        last_sentence(words),
+        "constant|constants|konstant|konstante|konstanter|konstantem|constante|constantes|be constant|"
+        "stays constant|恒定*|不变*|保持常*|circle of radius|kreis vom radius|cercle de rayon|círculo de radio");
+}
+
 bool neglects_gravity(std::string_view words) {
     return has_phrase(
         in_lower_case(words),
@@ -273,7 +280,8 @@ constexpr std::string_view special_motions =
     "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
     "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
     "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
-    "on the circle|on a circle|horizontal circle*|uniform rotation|steady turn*|constant inclination|"
+    "circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
+    "rotation|steady turn*|constant inclination|"
     "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
     "régulière|"
     "mouvement stationnaire|régime permanent|mouvement circulaire|pendule conique|orbite circulaire|precesión "

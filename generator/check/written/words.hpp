@@ -32,6 +32,9 @@ bool is_conditional(std::string_view words);
 /// "The effective potential is": what it names is not the potential of the forces.
 bool speaks_of_effective_potential(std::string_view words);
 
+/// "Let φ' = Ω be constant", "with constant r = a".
+bool speaks_of_constant_value(std::string_view words);
+
 /// "Without damping", "neglecting friction".
 bool neglects_resistance(std::string_view words);
 
