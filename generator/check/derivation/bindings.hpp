@@ -23,6 +23,7 @@ struct Binding {
     bool spoken = false;    ///< whether the words before it speak of its body
     bool reversed = false;  ///< whether the axis points the other way: y downwards for y upwards
     std::string point{};    ///< of a place or velocity: the particle, body or point
+    std::string size{};     ///< of a lone ω: the size of the whole vector, which it may be
 };
 
 /// Whether the scene counts its things itself: m1, theta2. Otherwise an author counts in an order of his own.

@@ -58,7 +58,9 @@ std::vector<std::string> hands_of(const std::string& base) {
         {"varrho", "rho"}, {"varkappa", "kappa"}, {"varsigma", "sigma"},
         {"ell", "l"},      {"hbar", "h"},         {"imath", "i"},
         {"varpi", "pi"},   {"th", "theta"},       {"ph", "phi"},
-        {"om", "omega"}};
+        {"om", "omega"},   {"Om", "Omega"},   {"al", "alpha"},
+        {"be", "beta"},    {"ga", "gamma"},   {"lam", "lambda"},
+        {"eps", "epsilon"}};
     std::vector<std::string> result{base};
     for (const auto& [variant, letter] : plain) {
         if (variant == base) result.push_back(letter);
@@ -171,6 +173,16 @@ Letters::Letters(const Scene& scene) {
             if (rank < letters.size()) written_so_.emplace(letters[rank], name);
         }
     }
+    // A rate that is typed as w is written ω.
+    const auto know_rate = [&](const std::string& name, const std::string& unit) {
+        const bool is_rate = unit == "rad/s" || unit == "1/s" || unit == "deg/s" || unit == "rpm" || unit == "s^-1";
+        if (!name.starts_with("w") || (!is_rate && !moving_.contains(name))) return;
+        for (Letter letter : letters_of(name))
+            if (letter.base == "w") letter.base = "omega", written_so_.emplace(letter, name);
+    };
+    for (const Parameter& p : scene.parameters) know_rate(p.name.text, p.unit);
+    for (const Speed& s : scene.speeds) know_rate(s.name.text, s.unit);
+    for (const Coordinate& c : scene.coordinates) know_rate(c.name.text, "");
 }
 
 void Letters::bind(const Letter& letter, const std::string& name) {

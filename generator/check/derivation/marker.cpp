@@ -18,8 +18,6 @@ namespace alembert {
 using GiNaC::ex;
 using Kind = Math::Kind;
 
-namespace {
-
 bool is_number(const Math& side) {
     if (side.kind == Kind::number) return true;
     const bool is_form = side.kind == Kind::negate || side.kind == Kind::quotient || side.kind == Kind::product ||
@@ -28,6 +26,8 @@ bool is_number(const Math& side) {
            (is_form &&
             std::all_of(side.args.begin(), side.args.end(), [](const MathPtr& arg) { return is_number(*arg); }));
 }
+
+namespace {
 
 bool is_rate_alone(const Math& side) {
     return (side.kind == Kind::letter && side.dots == 1) ||
@@ -119,8 +119,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     notes_.emplace_back();
     const Lone lone = lone_letter(lhs);
     is_new_law_ = lone.letter != nullptr && !quantity_of(lone.letter->letter) &&
-                  !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
-                  !seen_.contains(lone.letter->letter);
+                  is_unknown_force(lone.letter->letter) && !seen_.contains(lone.letter->letter);
     for (const Math* side : {&lhs, &rhs}) {
         std::map<Letter, int> all;
         collect_letters(*side, all);
@@ -160,6 +159,12 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
            1;
 }
 
+/// A letter of the author's, or a multiplier: each law may say anew what it is.
+bool Marker::is_unknown_force(const Letter& letter) const {
+    const std::string name = letters_.name_of(letter).value_or("");
+    return !letters_.is_of_scene(name) || is_multiplier(name);
+}
+
 /// U(θ) of which the words say so, or in which a momentum stands: no potential of the forces.
 bool Marker::is_effective_potential(const Math& lhs, const Math& rhs) const {
     const Lone own = lone_letter(lhs);
@@ -170,7 +175,9 @@ bool Marker::is_effective_potential(const Math& lhs, const Math& rhs) const {
     collect_letters(rhs, all);
     return std::any_of(all.begin(), all.end(), [&](const auto& item) {
         const std::string name = letters_.name_of(item.first).value_or("");
-        return kept_.contains(name) || (name.starts_with("p_") && known_.contains(name));
+        const auto known = known_.find(name);  // a momentum that the author has named
+        const bool is_momentum = known != known_.end() && system_.mechanism().z->depends(known->second, system_.mechanism().qdot);
+        return item.second == 0 && !letters_.is_of_scene(name) && (kept_.contains(name) || is_momentum);
     });
 }
 
@@ -199,11 +206,17 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     }
     if (judge_virtual(line, lhs, rhs)) return;
     if (is_condition_on_potential(line, lhs, rhs)) return;
+    const Math& first = *statement_->sides.front();
+    const bool ends_chain = &lhs != &first && rhs.kind == Kind::number && rhs.text == "0";
+    if (ends_chain && is_condition_on_potential(line, first, rhs)) return;  // dV/dθ = … = 0
     if (is_effective_potential(lhs, rhs)) letters_.leave_to_author(lone_letter(lhs).letter->letter);
     if (is_of_state(line, lhs, rhs) || judge_value(line, lhs, rhs, relation)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
     const Lone lone = lone_letter(lhs);
+    const bool is_again = lone.letter != nullptr && frequency_letters_.contains(lone.letter->letter) &&
+                          is_frequency_again(line, *lone.letter, rhs, lone.power);  // of another state or case
+    if (is_again) return;
     const bool is_reused =
         lone.letter != nullptr && speaks_of_frequency_ && is_of_motion(*lone.letter);  // ω has been a speed above
     if (is_reused && is_frequency(line, *lone.letter, rhs, lone.power)) return;
@@ -316,6 +329,10 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     note_forces(sides);
     if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
+    const bool has_mistake = std::any_of(lines.begin(), lines.end(), [](const MarkedLine& one) {
+        return one.status == LineStatus::mistake || one.status == LineStatus::follows;
+    });
+    if (!has_mistake) return note_reduced(sides, row);  // nothing stands above from which it could not follow
     const bool founded = is_new_law_ || is_identity ? is_new_law_ || !wrong || rows.is_identity(own) == true
                                                     : own_.founds(own) || own_.founds(row);
     if (founded) {

@@ -23,6 +23,9 @@
 
 namespace alembert {
 
+/// A number, perhaps with a unit, π or a fraction of such.
+bool is_number(const Math& side);
+
 /// What was found about a line while it was judged.
 struct LineNotes {
     LineClaim claim = {};  ///< empty where there is none
@@ -68,6 +71,7 @@ private:
     void line(std::size_t statement, std::size_t side);
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     bool is_of_motion(const Math& side) const;
+    bool is_unknown_force(const Letter& letter) const;
     bool is_effective_potential(const Math& lhs, const Math& rhs) const;
     bool holds_letters_that_move(const Math& math) const;
     bool judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
@@ -118,9 +122,11 @@ private:
     bool is_near_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     void define_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    bool is_of_parameters(const GiNaC::ex& value) const;
     std::vector<GiNaC::symbol> symbols_of_places() const;
     bool is_frequency_at_rest(MarkedLine& line, const Math& letter, const Math& rhs, int power,
                               const std::string& square);
+    bool is_frequency_again(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
@@ -145,9 +151,11 @@ private:
     void hear_conditions(const std::string& words);
     void hear_special_values(const std::string& words);
     bool is_value_of_state(const Letter& letter) const;
+    bool depends_on_state(const Letter& letter) const;
     bool states_special_case(const Math& lhs, const Math& rhs, const std::map<Letter, int>& all) const;
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool states_relation_of_constants(const Math& lhs, const Math& rhs);
     std::optional<std::string> excuse(const Math& lhs, const Math& rhs);
     void hear_steady_motion(const std::string& words);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
@@ -168,6 +176,7 @@ private:
     bool is_on_other_axis(const Letter& letter, const GiNaC::ex& value);
     void count_velocity(const Letter& letter, int dots, const std::string& text);
     bool bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool is_multiplier(const std::string& name) const;
     bool is_input(const std::string& name) const;
     bool holds_rates(const Math& math) const;
     bool says_rest() const;
@@ -175,6 +184,7 @@ private:
     bool is_parameter_identity(const Math& lhs, const Math& rhs);
     bool holds_at_pose(const Sides& sides);
     const std::vector<GiNaC::symbol>& still_after_impact();
+    bool is_kept(const Sides& sides);
     bool holds_after_impact(MarkedLine& line, const Sides& sides);
     bool is_of_authors_function(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool speaks_of_acceleration() const;
@@ -224,6 +234,7 @@ private:
         bool is_velocity;
     };
     std::map<Letter, Motion> motions_;  ///< letters that are places and velocities
+    std::set<Letter> frequency_letters_;  ///< ω that the derivation has found
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
@@ -243,6 +254,7 @@ private:
     static constexpr int lines_of_condition = 2;  ///< a display ends a sentence without a full stop
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
     bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
+    bool is_of_special_start_ = false;  ///< whether a line has held for motions with a special start alone
     int steady_lines_ = 0;             ///< how many lines what the words say of steady motion may govern
     std::set<Letter> motion_letters_;  ///< in formulas of one motion: A and B of A cos ω t
     bool conditioned_behind_ = false;  ///< whether the formula is followed by "at y = −l"
@@ -251,7 +263,7 @@ private:
         states_[4];                    ///< of rest and of steady motion: of all cases, and of the special one
     std::set<Letter> state_letters_;   ///< θ_0 of a coordinate θ
     GiNaC::exmap places_;              ///< their symbols, with the coordinates
-    bool are_states_of_rest_ = false;  ///< whether a line has shown that they are values at rest
+    std::set<Letter> rest_letters_;          ///< those of which a line has shown that they are values at rest
     bool is_state_wrong_ = false;      ///< whether one of these lines was wrong
     bool begins_case_ = true;      ///< whether a sentence or an item of a list has begun since the last of them
     GiNaC::exmap case_;            ///< those of the last sentence or item of a list

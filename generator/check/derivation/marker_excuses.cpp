@@ -52,8 +52,9 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
-    if (std::any_of(all.begin(), all.end(),
-                    [&](const auto& item) { return motion_letters_.contains(item.first); }))
+    const Lone lone = lone_letter(lhs);
+    if (lone.letter != nullptr && !speaks_of_time(rhs)) motion_letters_.erase(lone.letter->letter);  // "with ω_1 = …"
+    if (std::any_of(all.begin(), all.end(), [&](const auto& item) { return motion_letters_.contains(item.first); }))
         return true;
     const bool is_value = lhs.kind == Kind::letter || is_at_time(lhs);
     const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
@@ -82,9 +83,30 @@ std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
     const bool is_steady =
         steady_lines_ > 0 && !is_accelerated(lhs) && !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
     const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady;
-    if (keeps_its_start(lhs, rhs) || (!is_energy && is_conditional))
+    if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
+    if (keeps_its_start(lhs, rhs)) {
+        is_of_special_start_ = true;
+        return say("it keeps its value, and holds for motions that start so");
+    }
+    const bool may_use_start = is_of_special_start_ && !is_energy && !is_accelerated(lhs) && !is_accelerated(rhs) &&
+                               !has_quantities(sides_of(lhs, rhs));
+    if (may_use_start) return say("it may hold for motions that start as the lines above say");
+    if (!statement_->displayed && states_relation_of_constants(lhs, rhs)) {
+        under_condition_ = lines_of_condition;
+        return say("a condition on parameters; lines are judged for all their values");
+    }
     return std::nullopt;
+}
+
+/// ω_1 = 2 ω_2 among words: constants of the author's, which may be so for some values of the parameters.
+bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
+    const Sides sides = sides_of(lhs, rhs);
+    const bool is_own = std::any_of(sides.left.names.begin(), sides.left.names.end(), [&](const std::string& name) {
+        return known_.contains(name) && !letters_.is_of_scene(name);
+    });
+    return is_own && !has_quantities(sides) && is_of_parameters(truth_.value(sides.left.text)) &&
+           is_of_parameters(truth_.value(sides.right.text)) && speaks_of_special_case(statement_->words);
 }
 
 /// A mistake only under every reading.
@@ -109,13 +131,14 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
 /// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
 /// motions.
 bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
-    if (!from_rest_ || displacements_ != nullptr) return false;
+    if (displacements_ != nullptr) return false;
     const Mechanism& m = system_.mechanism();
     const ex left = truth_.value(claim_text(lhs, as_written()).text),
              right = truth_.value(claim_text(rhs, as_written()).text);
     const bool has_root = holds_root(lhs) || holds_root(rhs);  // s' = √(2 a s)
     const ex residual = has_root ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
-    if (m.z->depends(residual, m.qddot)) return false;
+    const bool changes = m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot);
+    if (!changes || m.z->depends(residual, m.qddot)) return false;
     return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
 }
 

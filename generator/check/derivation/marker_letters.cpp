@@ -100,10 +100,10 @@ void Marker::hear(const std::string& words) {
         });
     };
     at_rest_of_rates_ = says({"q'' = 0"});
-    speaks_of_frequency_ = speaks_of_frequency(words);
+    goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
+    speaks_of_frequency_ = (goes_on_ && speaks_of_frequency_) || speaks_of_frequency(words);
     speaks_of_period_ = speaks_of_period(words);
     speaks_of_roots_ = says({"with the roots", "其根"});
-    goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
     speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || alembert::speaks_of_rest(words);
     if (speaks_of_motion(words)) is_rest_assumed_ = speaks_of_impact_ = false;
     is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words);
@@ -148,8 +148,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
-                const bool is_number = value.kind == Kind::number || value.kind == Kind::quantity;
-                if (!statement.displayed && is_number) continue;  // "at θ = 0"
+                if (!statement.displayed && is_number(value)) continue;  // "at θ = 0", "at the pole, λ = π/2"
                 if (of_motion && statement.consequence)
                     continue;  // "we get N = …" of the force that it determines
                 const bool is_explained =
@@ -324,6 +323,10 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
         return false;
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
+    if (!holds && is_word_for_constant(letter.letter.base) && follows_in_special_case(rate.residual)) {
+        settle_in_special_case(line);
+        return true;
+    }
     if (!holds && !is_word_for_constant(letter.letter.base))
         return is_said_to_be_conserved(line, text, letter.letter, turned);
     std::string name =
@@ -371,6 +374,12 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
                                             (letter.letter.base == "omega" && letter.letter.index.empty()));
         if (is_size && rows.is_identity(rows.row(GiNaC::pow(truth, 2) - GiNaC::pow(value, 2))) == true)
             return tell(value, binding.point, true);
+        if (!binding.size.empty()) {
+            const ex square = GiNaC::pow(truth_.value(binding.size), 2);
+            if (rows.is_identity(rows.row(square - GiNaC::pow(value, power == 1 ? 2 : 1))) == true)
+                return tell(power == 1 ? value : GiNaC::sqrt(value), binding.point, true);
+            if (rows.is_identity(rows.row(square - GiNaC::pow(truth, 2))) != true) continue;  // not in a plane
+        }
         const bool is_said = binding.spoken && speaks_of_motion_of(statement_->words, spoken_);
         if ((binding.named || is_said) && !named) named = truth, point = binding.point;
     }
@@ -524,6 +533,7 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
             return;
         }
     }
+    if (!statement_->displayed && is_number(rhs)) under_condition_ = lines_of_condition;  // "at the pole, λ = π/2"
     const ClaimText text = claim_text(rhs, {.letters = letters_}),
                     own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
     const GiNaC::numeric exponent(1, power);

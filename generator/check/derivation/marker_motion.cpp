@@ -168,7 +168,8 @@ bool Marker::follows_in_special_case(const ex& residual) {
 }
 
 bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
-    if (values.empty()) return false;
+    const bool says_nothing = is_identically_zero(system_.mechanism().z->name(residual), system_.mechanism());
+    if (values.empty() || says_nothing) return false;
     const Mechanism& m = system_.mechanism();
     std::vector<ex> all{residual};
     for (int i = 0; i < m.size(); ++i) all.push_back(system_.motion_residual(i));

@@ -152,13 +152,21 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     collect_letters(lhs, all);
     collect_letters(rhs, all);
     static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
-    const bool is_named = std::any_of(all.begin(), all.end(), [&](const auto& item) {
-        return state_letters_.contains(item.first) && indices.contains(item.first.index);
+    const bool is_named = std::all_of(all.begin(), all.end(), [&](const auto& item) {
+        return !state_letters_.contains(item.first) || indices.contains(item.first.index) ||
+               rest_letters_.contains(item.first);
     });
-    const bool is_said = !from_rest_ && (says_rest() || is_named || steady_lines_ > 0 || are_states_of_rest_);
+    const bool is_said = !from_rest_ && (says_rest() || is_named || steady_lines_ > 0);
+    if (!statement_->displayed && begins_condition_of_state(statement_->words)) {  // "if ω = Ω"
+        under_condition_ = lines_of_condition;
+        return false;
+    }
     const Lone lone = lone_letter(lhs);
-    const bool is_number = rhs.kind == Kind::quantity || lhs.kind == Kind::quantity;
-    if (is_number) return false;
+    const auto is_rounded = [](const Math& side) {
+        return side.kind == Kind::quantity ||
+               (side.kind == Kind::number && side.text.find('.') != std::string::npos);
+    };
+    if (is_rounded(lhs) || is_rounded(rhs)) return false;
     if (lone.letter != nullptr && lone.letter->letter.base == "omega" &&
         !state_letters_.contains(lone.letter->letter) &&
         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
@@ -181,7 +189,9 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
                                   .names_place = names_coordinate(lhs) || names_coordinate(rhs)};
     line.claim = sides.left.text + " = " + sides.right.text;
     if (!m.z->depends(residual, m.qddot) && is_at_rest(line, residual, about, true)) {
-        if (line.status == LineStatus::right) are_states_of_rest_ = true;
+        if (line.status == LineStatus::right)
+            for (const auto& [letter, dots] : all)
+                if (state_letters_.contains(letter)) rest_letters_.insert(letter);
         return true;
     }
     if (is_of_motion && is_near_state(line, residual, about)) return true;

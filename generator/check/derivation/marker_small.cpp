@@ -35,6 +35,14 @@ void Marker::define_frequency(MarkedLine& line, const Math& letter, const Math& 
     line.status = LineStatus::undecided;
 }
 
+bool Marker::is_of_parameters(const ex& value) const {
+    const Mechanism& m = system_.mechanism();
+    const std::vector<GiNaC::symbol>* const changing[] = {&m.q, &m.qdot, &m.qddot, &system_.equations().lambda};
+    return !m.z->depends(value, {m.t}) && !m.z->depends(value, symbols_of_places()) &&
+           std::none_of(std::begin(changing), std::end(changing),
+                        [&](const auto* symbols) { return m.z->depends(value, *symbols); });
+}
+
 std::vector<GiNaC::symbol> Marker::symbols_of_places() const {
     std::vector<GiNaC::symbol> result;
     for (const auto& [letter, coordinate] : places_) result.push_back(GiNaC::ex_to<GiNaC::symbol>(letter));
@@ -51,7 +59,7 @@ bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Ma
     const Found found = found_at_rest([&](RestStates& states) { return states.is_frequency(value, about); },
                                       has_letter || steady_lines_ > 0 || !places_.empty(), reason);
     const bool holds = found == Found::everywhere || found == Found::on_branch;
-    if (!holds && has_letter && (is_state_wrong_ || !are_states_of_rest_)) return false;
+    if (!holds && has_letter && (is_state_wrong_ || rest_letters_.empty())) return false;
     if (!holds && (found != Found::nowhere || !(speaks_of_frequency_ || speaks_of_period_))) return false;
     if (!letters_.name_of(letter.letter)) define(line, letter, rhs, power);
     const bool is_named = holds && !near_ && own_bases_.empty() && names_state_or_mode(said_);
@@ -70,6 +78,27 @@ bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Ma
     line.claim =
         identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + claim_text(rhs, as_written()).text;
     notes_.back().claim = {};
+    if (holds) frequency_letters_.insert(letter.letter);
+    return true;
+}
+
+/// Another value of a letter that has been a frequency above: right if it is that of another state or of a special
+/// case. Then it is what the letter stands for.
+bool Marker::is_frequency_again(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
+    const std::string text = claim_text(rhs, as_written()).text;
+    const ex value = truth_.value(power == 2 ? text : "(" + text + ")^2");
+    const std::string name = letters_.name_of(letter.letter).value_or("");
+    if (name.empty() || letters_.is_of_scene(name) || !is_of_parameters(value)) return false;
+    MotionRows& rows = system_.rows();
+    if (rows.is_identity(rows.row(GiNaC::pow(truth_.value(name), 2) - value)) == true) return false;  // the same
+    std::string reason;
+    const Found found =
+        found_at_rest([&](RestStates& states) { return states.is_frequency(value, {}); }, true, reason);
+    if (found != Found::everywhere && found != Found::on_branch) return false;
+    define(line, letter, rhs, power);
+    line.status = LineStatus::right_near;
+    line.reason = say("a frequency of small vibrations about {}", say("a state of rest"));
+    notes_.back().claim = {};
     return true;
 }
 
@@ -84,10 +113,11 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     const bool of_angle = base == "omega" || base == "Omega" || base == "lambda";
     if (!of_period && !of_turns && !(of_angle && (speaks_of_frequency_ || speaks_of_small_))) return false;
     const ClaimText text = claim_text(rhs, as_written());
-    if (!holds_letters_only(text.names, system_.scene())) return false;
     std::string omega = power == 2 ? text.text : "(" + text.text + ")^2";
     if (of_period) omega = "4*pi^2/(" + omega + ")";
     if (of_turns) omega = "4*pi^2*(" + omega + ")";
+    if (!holds_letters_only(text.names, system_.scene()))  // k of k_1 = k_2 = k
+        return is_of_parameters(truth_.value(omega)) && is_frequency_at_rest(line, letter, rhs, power, omega);
     const Expression square = parsed(omega);
     if (!square) return false;
     bool known = false;
@@ -114,6 +144,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
         }
         line.status = LineStatus::right_near;
         line.reason = say("a frequency of small vibrations about {}", state.text);
+        frequency_letters_.insert(letter.letter);
         break;
     }
     if (line.status != LineStatus::right_near && is_frequency_at_rest(line, letter, rhs, power, omega))

@@ -46,7 +46,7 @@ void Marker::hear_conditions(const std::string& words) {
     if (ends_sentence(words)) under_condition_ = 0;
     hear_steady_motion(words);
     if (is_limit(written_, *statement_) || speaks_of_special_motion(words) || states_condition(words) ||
-        is_conditional(words))
+        is_conditional(words) || neglects_terms(words))
         under_condition_ = lines_of_condition;
     speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
     mentions_impact_ = mentions_impact_ || mentions_impact(said_);
@@ -88,6 +88,19 @@ bool Marker::is_value_of_state(const Letter& letter) const {
     return indices.contains(letter.index) && name && letters_.is_of_scene(*name) && letters_.moves(*name);
 }
 
+/// A deviation from a state, as ξ of θ = θ_0 + ξ, and what is written in such letters.
+bool Marker::depends_on_state(const Letter& letter) const {
+    const auto name = letters_.name_of(letter);
+    const auto known = name ? known_.find(*name) : known_.end();
+    return known != known_.end() && !places_.empty() &&
+           system_.mechanism().z->depends(known->second, symbols_of_places());
+}
+
+bool Marker::is_multiplier(const std::string& name) const {
+    const std::vector<GiNaC::symbol>& all = system_.equations().lambda;
+    return std::any_of(all.begin(), all.end(), [&](const GiNaC::symbol& one) { return one.get_name() == name; });
+}
+
 bool Marker::is_input(const std::string& name) const {
     const std::vector<Input>& all = system_.scene().inputs;
     return std::any_of(all.begin(), all.end(), [&](const Input& input) { return name == input.name.text; });
@@ -109,8 +122,8 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
                !depends(std::vector{m.t});
     };
     const auto is_parameter = [&](const std::string& name) {
-        return name == "pi" || (letters_.is_of_scene(name) && (is_input(name) || !letters_.moves(name)) &&
-                                !letters_.is_function(name));
+        const bool may_be = letters_.is_of_scene(name) && !letters_.is_function(name);
+        return name == "pi" || (may_be && (is_input(name) || (!letters_.moves(name) && !is_multiplier(name))));
     };
     const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
     if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter && !is_said)) return false;
@@ -187,7 +200,9 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     collect_letters(lhs, all);
     collect_letters(rhs, all);
     const auto state =
-        std::find_if(all.begin(), all.end(), [&](const auto& item) { return is_value_of_state(item.first); });
+        std::find_if(all.begin(), all.end(), [&](const auto& item) {
+            return is_value_of_state(item.first) || depends_on_state(item.first);
+        });
     if (state != all.end() && !letters_.is_authors(state->first)) {
         const LineNotes notes = notes_.back();
         try {
@@ -223,6 +238,14 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     return false;
 }
 
+/// Whether the difference of the sides does not change in motion.
+bool Marker::is_kept(const Sides& sides) {
+    const Mechanism& m = system_.mechanism();
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    return !m.z->depends(residual, m.qddot) &&
+           system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
+}
+
 /// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.
 bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
     if (mentions_impact_ && holds_at_pose(sides)) {
@@ -231,7 +254,7 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
         notes_.back().claim = {};
         return true;
     }
-    if (!speaks_of_impact_ || system_.scene().impulses.empty() || has_quantities(sides) ||
+    if (!(speaks_of_impact_ || speaks_of_conservation(said_)) || system_.scene().impulses.empty() || has_quantities(sides) ||
         is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
         return false;
     LineClaim claim = notes_.back().claim;
@@ -242,6 +265,7 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
     } catch (const std::exception&) {
         return false;
     }
+    if (speaks_of_conservation(said_) && (verdict != Verdict::proved || !is_kept(sides))) return false;
     notes_.back().claim = claim;
     line.status = verdict == Verdict::proved    ? LineStatus::right
                   : verdict == Verdict::refuted ? LineStatus::mistake

@@ -91,7 +91,9 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
     collect_letters(other, all);
     const bool is_known = std::all_of(all.begin(), all.end(),
                                       [&](const auto& item) { return letters_.name_of(item.first).has_value(); });
-    if (all.empty() || (!is_known && lone_letter(other).letter != nullptr)) return false;  // it defines the letter
+    const bool is_rounded = value.is_rounded() || relation == Relation::approximately;
+    if ((all.empty() && !is_rounded) || (!is_known && lone_letter(other).letter != nullptr))
+        return false;  // it defines the letter
     const auto unit = value.unit.empty() || value.unit == "deg" ? std::nullopt : meaning_of_unit(value.unit);
     const double scale = value.unit == "deg" ? std::acos(-1.0) / 180 : unit ? unit->factor : 1;
     const double written = (value.is_negative ? -1 : 1) * std::atof(value.number->text.c_str()) * scale;

@@ -110,7 +110,6 @@ RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system)
     for (int i = 0; i < e.size(); ++i)
         for (int j = 0; j < e.size(); ++j) near.push_back(e.M(i, j));
     add_slopes(forces, m.qdot);
-    add_slopes(m.generalized_forces(true), m.qdot);
     add_slopes(forces, m.q);
     near.insert(near.end(), rows.begin(), rows.end());
     const std::vector<ex> all_momenta = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
@@ -183,20 +182,35 @@ std::optional<State<double>> RestStates::reached(State<double> from) const {
     return std::nullopt;
 }
 
+/// Where a search begins: the first is the scene's own.
+State<double> RestStates::at_random(int set, int start) const {
+    State<double> at = start_of(system_.mechanism()).state();
+    at.unknown.assign(static_cast<std::size_t>(multipliers_), 0);
+    for (std::size_t p = 0; p < at.parameters.size(); ++p) at.parameters[p] = drawn(at.parameters[p], set, p);
+    at.qdot.assign(at.q.size(), 0);
+    const auto random = [&](std::size_t i) { return 2 * fraction(1000 * start + set, 100 + i) - 1; };
+    for (std::size_t i = 0; start > 0 && i < at.q.size(); ++i) at.q[i] = std::numbers::pi * random(i);
+    for (const std::size_t i : cyclic_) at.qdot[i] = 2 * random(50 + i);
+    return at;
+}
+
+/// Whether the equations near a state are the same at others.
+bool RestStates::is_linear() {
+    const std::vector<double> first = values(near_, at_random(0, 0));
+    State<double> other = at_random(0, 1);
+    const std::vector<double> second = values(near_, other);
+    for (double& x : other.unknown) x = 1;
+    const std::vector<double> third = values(near_, other);
+    return are_finite(first) && first == second && first == third;
+}
+
 /// Those that are found for one set of values.
 const std::vector<RestStates::Place>& RestStates::places(int set) {
     for (int k = static_cast<int>(sets_.size()); k <= set; ++k) {
-        State<double> at = start_of(system_.mechanism()).state();
-        at.unknown.assign(static_cast<std::size_t>(multipliers_), 0);
-        for (std::size_t p = 0; p < at.parameters.size(); ++p) at.parameters[p] = drawn(at.parameters[p], k, p);
-        at.qdot.assign(at.q.size(), 0);
+        const State<double> at = at_random(k, 0);
         std::vector<Place> found;
         for (int start = 0; start < starts; ++start) {
-            State<double> from = at;
-            const auto random = [&](std::size_t i) { return 2 * fraction(1000 * start + k, 100 + i) - 1; };
-            for (std::size_t i = 0; start > 0 && i < from.q.size(); ++i) from.q[i] = std::numbers::pi * random(i);
-            for (const std::size_t i : cyclic_) from.qdot[i] = 2 * random(50 + i);
-            const std::optional<State<double>> state = reached(from);
+            const std::optional<State<double>> state = reached(at_random(k, start));
             if (state && std::none_of(found.begin(), found.end(), [&](const Place& other) {
                     double most = 0;
                     for (std::size_t i = 0; i < state->q.size(); ++i)
@@ -233,7 +247,6 @@ std::optional<RestStates::Near> RestStates::near(const State<double>& at) const 
     Near result;
     result.mass = take(coordinates_);
     result.by_rates = take(coordinates_);
-    result.resisting = take(coordinates_);
     result.by_places = take(coordinates_);
     result.rows = take(multipliers_);
     result.momenta_by_rates = take(moving);
@@ -241,21 +254,35 @@ std::optional<RestStates::Near> RestStates::near(const State<double>& at) const 
     return result;
 }
 
+/// Of the equations of first order, in displacements that the constraints allow.
+Eigen::VectorXcd RestStates::eigenvalues(const Near& near) {
+    const Eigen::Index size = near.mass.rows();
+    const Matrix free = near.rows.rows() == 0 ? Matrix(Matrix::Identity(size, size))
+                                              : Matrix(Eigen::FullPivLU<Matrix>(near.rows).kernel());
+    const Eigen::Index n = free.cols();
+    const Matrix inverse =
+        (free.transpose() * near.mass * free).completeOrthogonalDecomposition().pseudoInverse();
+    Matrix all = Matrix::Zero(2 * n, 2 * n);
+    all.topRightCorner(n, n) = Matrix::Identity(n, n);
+    all.bottomLeftCorner(n, n) = inverse * (free.transpose() * near.by_places * free);
+    all.bottomRightCorner(n, n) = inverse * (free.transpose() * near.by_rates * free);
+    return Eigen::EigenSolver<Matrix>(all, false).eigenvalues();
+}
+
 /// Whether nothing grows near the state, as far as the equations of first order tell.
 bool RestStates::is_stable(const State<double>& at) const {
     const std::optional<Near> there = near(at);
     if (!there) return false;
-    const Matrix free = there->rows.rows() == 0 ? Matrix(Matrix::Identity(coordinates_, coordinates_))
-                                                : Matrix(Eigen::FullPivLU<Matrix>(there->rows).kernel());
-    const Eigen::Index n = free.cols();
-    const Matrix inverse =
-        (free.transpose() * there->mass * free).completeOrthogonalDecomposition().pseudoInverse();
-    Matrix all = Matrix::Zero(2 * n, 2 * n);
-    all.topRightCorner(n, n) = Matrix::Identity(n, n);
-    all.bottomLeftCorner(n, n) = inverse * (free.transpose() * there->by_places * free);
-    all.bottomRightCorner(n, n) = inverse * (free.transpose() * there->by_rates * free);
-    const Eigen::EigenSolver<Matrix> solver(all, false);
-    return solver.eigenvalues().real().maxCoeff() < 1e-4 * (1 + all.norm());
+    const Eigen::VectorXcd values = eigenvalues(*there);
+    return values.real().maxCoeff() < 1e-4 * (1 + values.cwiseAbs().maxCoeff());
+}
+
+/// √(k/m − γ²) of a damped oscillation: the imaginary part of an eigenvalue.
+bool RestStates::oscillates(const Near& near, double square) {
+    const Eigen::VectorXcd values = eigenvalues(near);
+    return square > 0 && std::any_of(values.begin(), values.end(), [&](const std::complex<double>& s) {
+               return std::abs(s.real()) > alike && std::abs(s.imag() * s.imag() - square) < alike * square;
+           });
 }
 
 /// A place where a line says little: a letter for an angle stands for 0 or π, one for a length for 0.
@@ -375,7 +402,7 @@ RestStates::Found RestStates::vanishes_near(const ex& residual, const About& giv
 /// Whether there is a solution near the state that varies as e^{st} with s² = −square, and not for any s.
 bool RestStates::solves(const Near& near, double square, bool resisting) {
     const Eigen::Index n = near.mass.rows(), bound = near.rows.rows();
-    const Matrix damping = resisting ? Matrix(near.by_rates) : Matrix(near.by_rates - near.resisting);
+    const Matrix damping = resisting ? near.by_rates : Matrix((near.by_rates - near.by_rates.transpose()) / 2);
     const auto smallest = [&](double of) {
         using Complex = std::complex<double>;
         const Complex s = std::sqrt(Complex(-of, 0));
@@ -396,12 +423,21 @@ RestStates::Found RestStates::is_frequency(const ex& square, const About& about)
     const Nodes nodes = lowered({square}, about.places);
     About any = about;
     any.of_any = true;
-    return weighed(any, [&](const State<double>& at) -> std::optional<Seen> {
+    const auto test = [&](const State<double>& at) -> std::optional<Seen> {
         const double value = values(nodes, at)[0];
         const std::optional<Near> there = near(at);
         if (!there || !std::isfinite(value)) return std::nullopt;
-        return Seen{.holds = solves(*there, value, true) || solves(*there, value, false)};
-    });
+        return Seen{.holds = solves(*there, value, true) || solves(*there, value, false) ||
+                             oscillates(*there, value)};
+    };
+    const Found found = weighed(any, test);
+    if (found != Found::unknown || !about.places.empty() || !is_linear()) return found;
+    int holding = 0;  // two rotors that a torque drives have no rest, and yet a frequency
+    for (int k = 0; k < least_sets; ++k) {
+        const std::optional<Seen> seen = test(at_random(k, 0));
+        holding += seen && seen->holds ? 1 : 0;
+    }
+    return holding == least_sets ? Found::on_branch : holding == 0 ? Found::nowhere : Found::unknown;
 }
 
 }  // namespace alembert

@@ -48,7 +48,7 @@ public:
     Found vanishes(const GiNaC::ex& residual, const About& about);
     /// Whether it vanishes to first order on all motions near a state that have its momenta.
     Found vanishes_near(const GiNaC::ex& residual, const About& about);
-    /// Whether i√square solves the equations near a state: with all forces, or without those that resist.
+    /// Whether i√square solves the equations near a state: with all forces, or without damping.
     Found is_frequency(const GiNaC::ex& square, const About& about);
 
     const Kind& kind() const { return kind_; }
@@ -66,16 +66,20 @@ private:
     /// Of the equations near a state: inertia, forces by rates, the resisting ones by rates, forces by
     /// coordinates, constraints, momenta by rates and by coordinates.
     struct Near {
-        Matrix mass, by_rates, resisting, by_places, rows, momenta_by_rates, momenta_by_places;
+        Matrix mass, by_rates, by_places, rows, momenta_by_rates, momenta_by_places;
     };
     Nodes lowered(const std::vector<GiNaC::ex>& list, const GiNaC::exmap& places);
     std::vector<double> values(const Nodes& nodes, const State<double>& at) const;
     double drawn(double own, int set, std::size_t k) const;
+    State<double> at_random(int set, int start) const;
+    bool is_linear();
     double& unknown(State<double>& state, Eigen::Index k) const;
     std::optional<State<double>> reached(State<double> from) const;
     const std::vector<Place>& places(int set);
     std::optional<Near> near(const State<double>& at) const;
     static bool solves(const Near& near, double square, bool resisting);
+    static Eigen::VectorXcd eigenvalues(const Near& near);
+    static bool oscillates(const Near& near, double square);
     bool is_stable(const State<double>& at) const;
     /// What a test finds at a state; nothing where it has no value.
     struct Seen {

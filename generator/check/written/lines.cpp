@@ -437,11 +437,23 @@ std::size_t session_label_length(std::string_view line) {
     return 0;
 }
 
+/// "(d) " and "b) " before what stands in an item of an exam.
+std::size_t item_length(std::string_view line) {
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    std::string_view rest = line.substr(begin);
+    const bool is_open = rest.starts_with('(');
+    if (is_open) rest.remove_prefix(1);
+    const bool is_item = rest.size() > 2 && std::isalpha(static_cast<unsigned char>(rest[0])) != 0 && rest[1] == ')' &&
+                         rest[2] == ' ' && std::string_view("=+-*/^").find(trimmed(rest.substr(2))[0]) == std::string_view::npos;
+    return is_item ? begin + (is_open ? 1 : 0) + 3 : 0;
+}
+
 }  // namespace
 
 bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
     std::size_t from = begin + marker_length(slice(begin, end));
     from += session_label_length(slice(from, end));
+    from += item_length(slice(from, end));
     if (is_drawing(slice(from, end))) return false;
     std::size_t after = end;
     while (after < end_) {  // lines that begin with = or +, or follow a sign

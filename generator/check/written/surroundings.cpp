@@ -13,7 +13,8 @@ std::string words_behind(const Written& written, const WrittenStatement& stateme
     if (begin >= written.text.size()) return {};
     std::string rest = written.text.substr(begin, most);
     const std::size_t opened = rest.find_first_not_of("$ \n)\\");
-    if (opened == std::string::npos) return {};
+    const std::size_t blank_line = rest.find("\n\n");
+    if (opened == std::string::npos || blank_line < opened) return {};
     rest.erase(0, opened);
     std::size_t end = rest.find_first_of("$.\n\\;");
     for (const char* const stop : {"。", "；"}) end = std::min(end, rest.find(stop));

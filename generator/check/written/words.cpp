@@ -181,7 +181,7 @@ bool is_conditional(std::string_view words) {
 
 bool speaks_of_effective_potential(std::string_view words) {
     return has_phrase(last_sentence(words),
-                      "effective potential*|effective one-dimensional potential|effektive* potential*|effektives "
+                      "effective potential*|effective one-dimensional potential|effektive potential*|effektives "
                       "potential|effektiven potential*|potentiel effectif|potencial efectivo|potentiel effective|"
                       "有效势*|等效势*");
 }
@@ -191,6 +191,13 @@ bool speaks_of_constant_value(std::string_view words) {
         last_sentence(words),
         "constant|constants|konstant|konstante|konstanter|konstantem|constante|constantes|be constant|"
         "stays constant|恒定*|不变*|保持常*|circle of radius|kreis vom radius|cercle de rayon|círculo de radio");
+}
+
+bool neglects_terms(std::string_view words) {
+    return has_phrase(last_sentence(words),
+                      "neglect*|negligible|drop the|dropping|ignore|ignoring|left aside|disregard*|are small|is small|replaced by "
+                      "the linear*|fast top|rapid*|vernachlässig*|vernachlaessig*|klein gegen|néglig*|négliger|petit devant|"
+                      "desprecia*|despreciable*|略去*|忽略*|远小于*|远大于*|很快时*|高速*");
 }
 
 bool neglects_gravity(std::string_view words) {
@@ -267,6 +274,8 @@ bool speaks_of_special_case(std::string_view words) {
                last_sentence(words),
                "si|cuando|caso particular|casos particulares|cas particulier|dans le cas|en el "
                "caso|pour|para|spezialfall|"
+               "case 1|case 2|case 3|case 4|case a|case b|case i|case ii|fall 1|fall 2|fall 3|cas 1|cas 2|caso 1|caso 2|"
+               "resonance|resonanz|resonancia|résonance|特例*|特别地*|情形*|情况*|共振*|sonderfälle|special cases|limiting case*|grenzfall*|cas limite|caso límite|"
                "special case|in the case|in case|provided|only for|only if|sonderfall|特殊情形*|特例*|当且仅当*");
 }
 
@@ -280,7 +289,7 @@ constexpr std::string_view special_motions =
     "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
     "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
     "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
-    "circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
+    "circular|circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
     "rotation|steady turn*|constant inclination|"
     "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
     "régulière|"
@@ -303,7 +312,8 @@ namespace {
 
 bool is_of_rest(const std::string& sentence) {
     const bool is_of_start = has_phrase(
-        sentence, "start*|initially|released|remains|not at rest|从静止*|静止开始*|初始*|冲击前*|碰撞前*");
+        sentence, "start*|initially|released|remains|not at rest|from rest|desde el reposo|del reposo|du repos|aus der "
+                              "ruhe|let go|losgelassen|loslassen|soltar|suelta|lâch*|parte del|inicial*|initial*|由静止*|从静止*|静止开始*|初始*|冲击前*|碰撞前*");
     const bool is_of_place =
         has_phrase(sentence,
                    "from the equilibrium*|from equilibrium|measured*|displacement from*|deviation*|about the "
@@ -311,7 +321,8 @@ bool is_of_rest(const std::string& sentence) {
     return !is_of_start && !is_of_place &&
            has_phrase(
                sentence,
-               "at rest|rests|equilibri*|accelerations zero|principle of virtual work|静止*|平衡*|虚位移原理*|"
+               "at rest|rests|equilibri*|equil|eqm|eq. pos*|rest position*|gleichgewicht|gleichgewichte|ggl|ruhelage|"
+               "posición de equilibrio|en reposo|au repos|position d'équilibre|accelerations zero|principle of virtual work|静止*|平衡*|虚位移原理*|"
                "虚功原理*|加速度为零*|im gleichgewicht|gleichgewichtslage*|gleichgewichtsbedingung*|ruhelage*|"
                "équilibre");
 }
@@ -346,7 +357,8 @@ bool speaks_of_impact(std::string_view words) {
         in_lower_case(words),
         "after the impact|after impact|right after|impulse gives|blow gives|impact gives|after the "
         "collision|after the blow|after the impulse|just after|"
-        "immediately after|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
+        "immediately after|juste après|aussitôt après|immédiatement après|après la percussion|après le choc|justo "
+        "después|inmediatamente después|tras el impacto|tras la percusión|después del choque|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
         "unmittelbar nach");
 }
 
@@ -523,7 +535,7 @@ bool is_prose(std::string_view word) {
         "for", "from", "with", "and",  "or",    "so",   "we",    "it",    "as",   "if",    "let",   "get",
         "has", "have", "this", "that", "then",  "thus", "hence", "where", "when", "which", "gives", "yields",
         "its", "our",  "here", "us",   "now",   "was",  "were",  "can",   "will", "both",  "also",  "since",
-        "put", "say",  "try",  "you",  "may",   "one",  "all",   "any",   "how",  "who",   "let's", "yes",
+        "put", "say", "ok",   "OK",  "try",  "you",  "may",   "one",  "all",   "any",   "how",  "who",   "let's", "yes",
         "not", "no",   "but",  "use",  "using", "set",  "find",  "take",  "per",  "via",   "into",  "I"};
     if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
     const std::string lower = in_lower_case(word);

@@ -38,6 +38,9 @@ bool speaks_of_constant_value(std::string_view words);
 /// "Without damping", "neglecting friction".
 bool neglects_resistance(std::string_view words);
 
+/// "Neglecting the square of Ω", "if both are small": what follows holds approximately.
+bool neglects_terms(std::string_view words);
+
 /// "Without gravity".
 bool neglects_gravity(std::string_view words);
 
