@@ -108,7 +108,7 @@ private:
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
     bool is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value);
     bool is_condition_on_potential(MarkedLine& line, const Math& lhs, const Math& rhs);
-    RestStates& states_of_rest(bool steady, bool of_case);
+    RestStates& states_of_rest(bool steady, const GiNaC::exmap& special);
     RestStates::Found found_at_rest(const std::function<RestStates::Found(RestStates&)>& ask, bool may_be_steady,
                                     std::string& reason);
     bool is_at_rest(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about,
@@ -157,6 +157,7 @@ private:
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool states_relation_of_constants(const Math& lhs, const Math& rhs);
     std::optional<std::string> excuse(const Math& lhs, const Math& rhs);
+    void hear_approximation(const std::string& words);
     void hear_steady_motion(const std::string& words);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
     bool is_written_rate(const Math& side) const;
@@ -255,12 +256,12 @@ private:
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
     bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
     bool is_of_special_start_ = false;  ///< whether a line has held for motions with a special start alone
+    int approximate_lines_ = 0;         ///< how many lines the words "neglecting …" may govern
     int steady_lines_ = 0;             ///< how many lines what the words say of steady motion may govern
     std::set<Letter> motion_letters_;  ///< in formulas of one motion: A and B of A cos ω t
     bool conditioned_behind_ = false;  ///< whether the formula is followed by "at y = −l"
     int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
-    std::unique_ptr<RestStates>
-        states_[4];                    ///< of rest and of steady motion: of all cases, and of the special one
+    std::unique_ptr<RestStates> states_[6];                    ///< of rest and of steady motion: of all cases, and of the special one
     std::set<Letter> state_letters_;   ///< θ_0 of a coordinate θ
     GiNaC::exmap places_;              ///< their symbols, with the coordinates
     std::set<Letter> rest_letters_;          ///< those of which a line has shown that they are values at rest

@@ -35,6 +35,17 @@ bool speaks_of_time(const Math& math) {
 
 }  // namespace
 
+/// "Neglecting the square of Ω" is meant for a few lines.
+void Marker::hear_approximation(const std::string& words) {
+    constexpr int most_lines = 5;
+    if (neglects_terms(words))
+        approximate_lines_ = most_lines;
+    else if (speaks_of_exact_motion(words) || speaks_of_general_case(words))
+        approximate_lines_ = 0;
+    else if (approximate_lines_ > 0)
+        --approximate_lines_;
+}
+
 /// "Steady precession." is meant until the words go on to the motion in general.
 void Marker::hear_steady_motion(const std::string& words) {
     constexpr int most_lines = 8;
@@ -73,6 +84,16 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
 std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
     if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1)
         return say("the words may mean the energy of a part");
+    const std::size_t masses = system_.scene().particles.size() + system_.scene().bodies.size();
+    const bool is_numbered = lhs.kind == Kind::letter && lhs.dots == 0 && !lhs.letter.index.empty() &&
+                             lhs.letter.index.find_first_not_of("0123456789") == std::string::npos;
+    if (is_numbered && masses < 2 && std::string("TVKUEL").find(lhs.letter.base) != std::string::npos)
+        return say("the number may mean a state");  // T_1 after the impact
+    const Lone lone = lone_letter(lhs);
+    const bool is_own = lone.letter != nullptr && !quantity_of(lone.letter->letter) &&
+                        !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or(""));
+    if (is_own && !special_values_.empty())
+        return say("it may hold for values of parameters that stand above");
     if (is_lone_force(lhs) && names_part_of_forces(said_)) return say("the words speak of a part of the forces");
     if (is_autonomous_ && (speaks_of_time(lhs) || speaks_of_time(rhs)))
         return say("it describes one motion; lines are judged for all motions");
@@ -82,7 +103,8 @@ std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
                                !statement_->displayed && system_.mechanism().size() > 1;
     const bool is_steady =
         steady_lines_ > 0 && !is_accelerated(lhs) && !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
-    const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady;
+    const bool is_approximate = approximate_lines_ > 0 && !has_quantities(sides_of(lhs, rhs));
+    const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady || is_approximate;
     if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
     if (keeps_its_start(lhs, rhs)) {
@@ -111,10 +133,11 @@ bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
 
 /// A mistake only under every reading.
 void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
-    if (line.status != LineStatus::mistake) return;
+    if (line.status != LineStatus::mistake && line.status != LineStatus::follows) return;
     const Sides sides = sides_of(lhs, rhs);
     if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text)))
         return settle_in_special_case(line);
+    if (line.status != LineStatus::mistake) return;
     if (holds_at_pose(sides)) {
         line.status = LineStatus::right;
         line.reason = say("at the pose of the impact");

@@ -144,6 +144,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
         if (&statement < statement_) continue;  // in this one: y_1 = y_2 = l cos α
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
             for (const bool turned : {false, true}) {
+                if (statement.relations[k] == Relation::proportional) continue;  // n ≫ Ω
                 const Math &side = *statement.sides[turned ? k + 1 : k],
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
@@ -381,7 +382,9 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
             if (rows.is_identity(rows.row(square - GiNaC::pow(truth, 2))) != true) continue;  // not in a plane
         }
         const bool is_said = binding.spoken && speaks_of_motion_of(statement_->words, spoken_);
-        if ((binding.named || is_said) && !named) named = truth, point = binding.point;
+        const bool is_of_own_axes = letter.letter.base == "omega" && letter.letter.index.size() == 1 &&
+                                    letter.letter.index.find_first_of("123") == 0;
+        if ((binding.named || is_said) && !named && !is_of_own_axes) named = truth, point = binding.point;
     }
     if (named && is_on_other_axis(letter.letter, value)) {
         define(line, letter, rhs, power);

@@ -79,14 +79,18 @@ bool Marker::is_along_motion(MarkedLine& line, const Sides& sides) {
 
 /// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.
 bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
-    const bool left = !sides.left.names.empty() && sides.right.names.empty() && sides.right.text != "0";
-    const bool right = !sides.right.names.empty() && sides.left.names.empty() && sides.left.text != "0";
+    const auto is_value = [&](const ClaimText& side) {
+        return side.names.empty() && (side.text != "0" || !statement_->displayed);
+    };
+    const bool left = !sides.left.names.empty() && is_value(sides.right);
+    const bool right = !sides.right.names.empty() && is_value(sides.left);
     if (!left && !right) return false;
     const std::set<std::string>& names = left ? sides.left.names : sides.right.names;
     if (std::any_of(names.begin(), names.end(),
                     [&](const std::string& name) { return !letters_.is_of_scene(name) || letters_.moves(name); }))
         return false;
     const std::string name = left ? sides.left.text : sides.right.text;
+    if (!statement_->displayed) under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value of {}; lines are judged for all values", name);
     return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <functional>
+#include <utility>
 
 #include "algebra/notation/readable.hpp"
 #include "base/language/say.hpp"
@@ -38,16 +39,15 @@ bool Marker::is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimTex
     return true;
 }
 
-/// States of rest or of steady motion in numbers; `of_case`: for the values of parameters that the derivation
-/// states.
-RestStates& Marker::states_of_rest(bool steady, bool of_case) {
-    std::unique_ptr<RestStates>& states = states_[(steady ? 2 : 0) + (of_case ? 1 : 0)];
+/// States of rest or of steady motion in numbers, for special values of parameters.
+RestStates& Marker::states_of_rest(bool steady, const GiNaC::exmap& special) {
+    const std::size_t kind = special.empty() ? 0 : &special == &case_ ? 2 : 1;
+    std::unique_ptr<RestStates>& states = states_[(steady ? 3 : 0) + kind];
     const auto is_same = [](const GiNaC::exmap& a, const GiNaC::exmap& b) {
         return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
                    return x.first.is_equal(y.first) && x.second.is_equal(y.second);
                });
     };
-    const GiNaC::exmap special = of_case ? special_values_ : GiNaC::exmap();
     if (!states || !is_same(states->kind().special, special))
         states = std::make_unique<RestStates>(system_, RestStates::Kind{.special = special, .steady = steady});
     return *states;
@@ -58,12 +58,15 @@ RestStates& Marker::states_of_rest(bool steady, bool of_case) {
 Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool may_be_steady,
                             std::string& reason) {
     bool is_nowhere = false, is_elsewhere = false;
+    const GiNaC::exmap none;
     for (const bool steady : {false, true})
-        for (const bool of_case : {false, true}) {
-            if ((steady && !may_be_steady) || (of_case && special_values_.empty())) continue;
+        for (const GiNaC::exmap* special : {&none, &std::as_const(special_values_), &std::as_const(case_)}) {
+            const bool of_case = special != &none;
+            if ((steady && !may_be_steady) || (of_case && special->empty())) continue;
+            if (special == &case_ && case_.size() == special_values_.size()) continue;
             Found found = Found::unknown;
             try {
-                found = ask(states_of_rest(steady, of_case));
+                found = ask(states_of_rest(steady, *special));
             } catch (const std::exception&) {  // what has no value in numbers
             }
             is_nowhere = is_nowhere || found == Found::nowhere;
@@ -124,7 +127,10 @@ bool Marker::names_coordinate(const Math& side) const {
 /// θ of θ_0.
 GiNaC::symbol Marker::coordinate_of_value(const Letter& letter) const {
     Letter plain = letter;
-    plain.index.clear();
+    if (plain.raised.empty())
+        plain.index.clear();
+    else
+        plain.raised.clear();
     const std::string name = *letters_.name_of(plain);
     const std::vector<GiNaC::symbol>& all = system_.mechanism().q;
     const auto found =
@@ -275,6 +281,7 @@ bool Marker::is_root(MarkedLine& line, const Sides& sides) {
     const ex left = m.z->expand(truth_.value(sides.left.text)),
              right = m.z->expand(truth_.value(sides.right.text));
     if (!GiNaC::is_a<GiNaC::symbol>(left) && !GiNaC::is_a<GiNaC::function>(left)) return false;
+    if (!m.z->depends(left, m.q)) return false;  // Ω = ω_0 is a condition on parameters
     for (const ex& condition : system_.conditions_of_rest()) {
         if (m.z->tree_size(condition) > largest || rows.is_identity(rows.row(condition)) == true) continue;
         const auto sum = fourier(m.z->expand(condition), *m.symbols, most_terms);

@@ -45,8 +45,9 @@ void Marker::hear_conditions(const std::string& words) {
     if (under_condition_ > 0 && !goes_on_) --under_condition_;
     if (ends_sentence(words)) under_condition_ = 0;
     hear_steady_motion(words);
+    hear_approximation(words);
     if (is_limit(written_, *statement_) || speaks_of_special_motion(words) || states_condition(words) ||
-        is_conditional(words) || neglects_terms(words))
+        is_conditional(words))
         under_condition_ = lines_of_condition;
     speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
     mentions_impact_ = mentions_impact_ || mentions_impact(said_);
@@ -80,6 +81,14 @@ void Marker::hear_special_values(const std::string& words) {
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
 bool Marker::is_value_of_state(const Letter& letter) const {
     if (state_letters_.contains(letter)) return true;
+    if (!letter.raised.empty() && letter.raised != "*") {  // y_1^0
+        Letter plain = letter;
+        plain.raised.clear();
+        const auto name = letters_.name_of(plain);
+        const std::vector<std::string>& all = letters_.coordinates();
+        return letter.raised == "0" && !letters_.name_of(letter) && name &&
+               std::find(all.begin(), all.end(), *name) != all.end();
+    }
     if (letters_.name_of(letter) || letter.index.empty()) return false;
     static const std::set<std::string> indices{"0", "eq", "e", "s", "st", "max", "min", "i", "f", "(0)", "star"};
     Letter plain = letter;
@@ -219,7 +228,8 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
             say("it speaks of the value of a coordinate at one state, {}; lines are judged for all motions",
                 identifier_of(state->first)));
     }
-    if (says_rest() && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
+    const bool is_case = !statement_->displayed && speaks_of_special_case(statement_->words);
+    if (says_rest() && !is_case && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
         judge_pair(line, lhs, rhs);
         if (is_right(line.status)) return true;
         line = before;

@@ -201,6 +201,14 @@ void Readings::withhold(std::vector<MarkedLine>& lines, const Letters& letters,
                 "and no later line tells",
                 name, name);
     }
+    bool has_mistake = false;
+    for (MarkedLine& line : lines) {
+        has_mistake = has_mistake || line.status == LineStatus::mistake || line.status == LineStatus::follows;
+        if (line.status != LineStatus::unfounded || has_mistake) continue;
+        line.status = LineStatus::right;  // what it did not follow from is no mistake
+        line.reason.clear();
+        line.follows_from.reset();
+    }
 }
 
 }  // namespace alembert

@@ -322,7 +322,10 @@ std::vector<WrittenToken> DocumentReader::latex_tokens(std::size_t begin, std::s
 /// A word of prose becomes a part of the text before it, or a text of its own.
 void DocumentReader::add_word(std::vector<WrittenToken>& tokens, const std::string& word, std::size_t offset) {
     if (!tokens.empty() && tokens.back().kind == LineKind::text) {
-        tokens.back().text += word + " ";
+        std::string& text = tokens.back().text;
+        const auto is_wide = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+        if (text.size() > 1 && is_wide(text[text.size() - 2]) && is_wide(word[0])) text.pop_back();  // 平衡时 is one word
+        text += word + " ";
         tokens.back().length = offset + word.size() - tokens.back().offset;
         return;
     }

@@ -155,6 +155,7 @@ std::optional<std::string> MathParser::raised_text(const Letter& letter, std::si
     const WrittenToken& first = token(begin);
     const bool is_number = letter.base == "e" && letter.index.empty();
     if (first.kind == Kind::text) return flat_text(begin, end);
+    if (count == 1 && first.kind == Kind::number && first.text == "0" && !is_number) return "0";  // y^0 at rest
     if (count == 1 && first.kind == Kind::times) return std::string("*");
     if (count == 1 && (first.kind == Kind::plus || first.kind == Kind::minus))
         return std::string(first.kind == Kind::plus ? "+" : "-");

@@ -195,7 +195,7 @@ bool speaks_of_constant_value(std::string_view words) {
 
 bool neglects_terms(std::string_view words) {
     return has_phrase(last_sentence(words),
-                      "neglect*|negligible|drop the|dropping|ignore|ignoring|left aside|disregard*|are small|is small|replaced by "
+                      "at the critical*|critical load|im kritischen*|kritischen last|charge critique|carga crítica|临界*|neglect*|negligible|drop the|dropping|ignore|ignoring|left aside|disregard*|are small|is small|replaced by "
                       "the linear*|fast top|rapid*|vernachlässig*|vernachlaessig*|klein gegen|néglig*|négliger|petit devant|"
                       "desprecia*|despreciable*|略去*|忽略*|远小于*|远大于*|很快时*|高速*");
 }
