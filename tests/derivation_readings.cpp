@@ -121,7 +121,7 @@ TEST_CASE("readings: values at one moment, conditions and numbers of equations a
                    "$(4) = (2)\\cos\\theta + (3)\\sin\\theta$ gives\n$$l\\ddot\\theta + g\\sin\\theta = 0$$") ==
           "-R");
     CHECK(statuses(hoop, "At equilibrium $\\sin\\theta=0$ or $\\cos\\theta=\\frac{g}{R\\Omega^2}$.") == "RR");
-    CHECK(statuses(hoop, "At equilibrium $\\theta=\\theta_0$: $$\\cos\\theta_0=\\frac{g}{R\\Omega^2}$$") == "--");
+    CHECK(statuses(hoop, "At equilibrium $\\theta=\\theta_0$: $$\\cos\\theta_0=\\frac{g}{R\\Omega^2}$$") == "RR");
     CHECK(statuses(spherical, "For the conical pendulum $\\dot\\phi^2=\\frac{g}{l\\cos\\theta}$.") == "-");
     CHECK(statuses(pendulum, "$$l\\ddot\\theta - g\\sin\\theta = 0$$") == "M");
 }
@@ -440,6 +440,77 @@ TEST_CASE("readings: ordinary prose hides no wrong line") {
         CHECK(statuses(pendulum, std::string(words) + "\n\n$$l\\ddot\\theta - g\\sin\\theta = 0$$") == "M");
         CHECK(statuses(pendulum, std::string(words) + "\n\n$$m l\\dot\\theta = 0$$") == "M");
     }
+}
+
+const char* const rod_on_springs = R"toml(
+gravity = [0, "-g"]
+[parameters]
+m = 2
+a = 0.5
+k1 = 300
+k2 = 500
+g = 9.81
+[coordinates]
+y = 0
+phi = 0.1
+[[frame]]
+name = "rod"
+rotate = [["z", "phi"]]
+[[body]]
+name = "beam"
+mass = "m"
+inertia = "m*a^2/3"
+frame = "rod"
+position = [0, "y"]
+[[spring]]
+along = "y - a*sin(phi)"
+stiffness = "k1"
+[[spring]]
+along = "y + a*sin(phi)"
+stiffness = "k2"
+)toml";
+
+TEST_CASE("readings: equilibria of several coordinates, and what holds on one branch of them") {
+    CHECK(statuses(rod_on_springs, "In equilibrium\n\n$$y=-\\frac{mg(k_1+k_2)}{4k_1k_2}$$") == "R");
+    CHECK(statuses(rod_on_springs, "In equilibrium\n\n$$y=-\\frac{mg(k_1+k_2)}{2k_1k_2}$$") == "M");
+    CHECK(statuses(rod_on_springs, "In equilibrium\n\n$$a\\sin\\phi=\\frac{mg(k_2-k_1)}{4k_1k_2}$$") == "R");
+    CHECK(statuses(rod_on_springs, "In equilibrium\n\n$$a\\sin\\phi=\\frac{mg(k_1-k_2)}{4k_1k_2}$$") == "M");
+    CHECK(statuses(rod_on_springs, "For $k_1=k_2$ the frequency of small turns is\n\n$$\\omega^2=\\frac{6k_1}{m}$$") ==
+          "-R");
+    CHECK(statuses(rod_on_springs, "For $k_1=k_2$ the frequency of small turns is\n\n$$\\omega^2=\\frac{3k_1}{m}$$") ==
+          "-M");
+    // Both sides vanish where θ = 0, which says nothing.
+    CHECK(statuses(hoop, "In equilibrium\n\n$$g\\sin\\theta=2R\\Omega^2\\sin\\theta\\cos\\theta$$") == "M");
+    CHECK(statuses(hoop, "In equilibrium\n\n$$g\\sin\\theta=R\\Omega^2\\sin\\theta\\cos\\theta$$") == "R");
+    CHECK(statuses(pendulum, "The equilibrium follows from $dV/d\\theta = 0$.") == "R");
+}
+
+TEST_CASE("readings: a letter for the value of a coordinate at rest, and deviations from it") {
+    const std::string rest = "In equilibrium $\\cos\\theta_0=\\frac{g}{R\\Omega^2}$. Put $\\theta=\\theta_0+\\xi$; to first "
+                             "order\n\n";
+    CHECK(statuses(hoop, rest + "$$\\ddot\\xi+\\Omega^2\\sin^2\\theta_0\\,\\xi=0$$") == "RDR");
+    CHECK(statuses(hoop, rest + "$$\\ddot\\xi+2\\Omega^2\\sin^2\\theta_0\\,\\xi=0$$") == "RDM");
+    CHECK(statuses(hoop, "In equilibrium $\\cos\\theta_0=\\frac{2g}{R\\Omega^2}$.") == "M");
+    CHECK(statuses(pendulum, "Released from rest at $\\theta=\\theta_0$\n\n"
+                             "$$\\dot\\theta^2=\\frac{2g}{l}(\\cos\\theta-\\cos\\theta_0)$$") == "-R");
+    CHECK(statuses(pendulum, "Released from rest at $\\theta=\\theta_0$\n\n"
+                             "$$\\dot\\theta^2=\\frac{g}{l}(\\cos\\theta-\\cos\\theta_0)$$") == "-M");
+    CHECK(statuses(spherical, "Steady motion. Let $\\theta=\\alpha$ and $\\dot\\phi=\\omega$ be constant. Then\n\n"
+                              "$$\\omega^2=\\frac{g}{l\\cos\\alpha}$$") == "--R");
+    CHECK(statuses(spherical, "Steady motion. Let $\\theta=\\alpha$ and $\\dot\\phi=\\omega$ be constant. Then\n\n"
+                              "$$\\omega^2=\\frac{2g}{l\\cos\\alpha}$$") != "--R");
+}
+
+TEST_CASE("readings: numbers hold to their digits, and items and approximations are no factors and no claims") {
+    CHECK(statuses(pendulum, "With $g=9.81$ m/s² and $l=2$ m the frequency $\\omega=\\sqrt{g/l}$ is\n\n$$\\omega=2.21$$") ==
+          "--RR");
+    CHECK(statuses(pendulum, "With $g=9.81$ m/s² and $l=2$ m the frequency $\\omega=\\sqrt{g/l}$ is\n\n$$\\omega=2.36$$") ==
+          "--RM");
+    CHECK(statuses(pendulum, "An exam about a pendulum\n\n(b) l theta'' + g sin(theta) = 0", "exam.txt") == "R");
+    CHECK(statuses(pendulum, "An exam about a pendulum\n\n(b) l theta'' + g cos(theta) = 0", "exam.txt") == "M");
+    CHECK(statuses(pendulum, "平衡时 θ'' = 0\nsin(theta) = 0\n这是结果", "page.txt") == "-R");
+    CHECK(statuses(pendulum, "The energy that it starts with gives\n\n$$\\dot\\theta^2=\\frac{2g}{l}\\cos\\theta$$") == "-");
+    CHECK(statuses(pendulum, "The energy that it starts with gives\n\n$$\\dot\\theta^2=\\frac{g}{l}\\cos\\theta$$") == "M");
 }
 
 TEST_CASE("readings: words have their twins in three languages") {

@@ -177,7 +177,8 @@ bool Marker::is_effective_potential(const Math& lhs, const Math& rhs) const {
         const std::string name = letters_.name_of(item.first).value_or("");
         const auto known = known_.find(name);  // a momentum that the author has named
         const bool is_momentum = known != known_.end() && system_.mechanism().z->depends(known->second, system_.mechanism().qdot);
-        return item.second == 0 && !letters_.is_of_scene(name) && (kept_.contains(name) || is_momentum);
+        const bool is_quantity = quantity_of(item.first) && quantity_of(item.first) != MechanicalQuantity::momentum;
+        return item.second == 0 && !is_quantity && !letters_.is_of_scene(name) && (kept_.contains(name) || is_momentum);
     });
 }
 
@@ -345,8 +346,9 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) || is_assumption(line, sides) ||
-        holds_after_impact(line, sides) || is_reduced_momentum(line, sides))
+    if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) ||
+        (is_aside() && is_assumption(line, sides)) || holds_after_impact(line, sides) || is_assumption(line, sides) ||
+        is_reduced_momentum(line, sides))
         return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
         is_equilibrium(line, sides) || is_given_value(line, sides) || is_on_branch(line, sides) ||

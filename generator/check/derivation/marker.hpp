@@ -30,6 +30,7 @@ bool is_number(const Math& side);
 struct LineNotes {
     LineClaim claim = {};  ///< empty where there is none
     ClaimText left = {}, right = {};
+    bool is_sure = false;                    ///< whether a mistake has been judged for what the words say
     bool alone_is_quantity = false;          ///< as in ClaimWriting
     bool rates_are_speeds = false;           ///< likewise
     bool slopes_are_of_motion = false;       ///< likewise
@@ -100,6 +101,7 @@ private:
     bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
+    bool is_aside() const;
     bool is_assumption(MarkedLine& line, const Sides& sides);
     bool is_reduced_momentum(MarkedLine& line, const Sides& sides);
     bool deviates_from_motion() const;
@@ -156,7 +158,7 @@ private:
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool states_relation_of_constants(const Math& lhs, const Math& rhs);
-    std::optional<std::string> excuse(const Math& lhs, const Math& rhs);
+    std::optional<std::string> excuse(const MarkedLine& line, const Math& lhs, const Math& rhs);
     void hear_approximation(const std::string& words);
     void hear_steady_motion(const std::string& words);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
@@ -171,6 +173,7 @@ private:
     bool follows_with(const GiNaC::ex& residual, const GiNaC::exmap& values);
     void settle_in_special_case(MarkedLine& line);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
+    bool is_wrong_energy_of_start(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);

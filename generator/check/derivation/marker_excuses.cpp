@@ -81,7 +81,7 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
 }
 
 /// The reason why a line that does not hold on all motions may yet be meant rightly; nothing if there is none.
-std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
+std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1)
         return say("the words may mean the energy of a part");
     const std::size_t masses = system_.scene().particles.size() + system_.scene().bodies.size();
@@ -92,7 +92,7 @@ std::optional<std::string> Marker::excuse(const Math& lhs, const Math& rhs) {
     const Lone lone = lone_letter(lhs);
     const bool is_own = lone.letter != nullptr && !quantity_of(lone.letter->letter) &&
                         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or(""));
-    if (is_own && !special_values_.empty())
+    if (is_own && !special_values_.empty() && line.reason.empty())  // no frequency, which is judged for all cases
         return say("it may hold for values of parameters that stand above");
     if (is_lone_force(lhs) && names_part_of_forces(said_)) return say("the words speak of a part of the forces");
     if (is_autonomous_ && (speaks_of_time(lhs) || speaks_of_time(rhs)))
@@ -144,7 +144,8 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         notes_.back().claim = {};
         return;
     }
-    const std::optional<std::string> reason = excuse(lhs, rhs);
+    if (notes_.back().is_sure) return;
+    const std::optional<std::string> reason = excuse(line, lhs, rhs);
     if (!reason) return;
     line.status = LineStatus::not_about_scene;
     line.reason = *reason;
@@ -162,7 +163,9 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     const ex residual = has_root ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
     const bool changes = m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot);
     if (!changes || m.z->depends(residual, m.qddot)) return false;
-    return system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
+    MotionRows& rows = system_.rows();
+    if (rows.holds(rows.row(residual)) == true) return false;  // it is wrong in another way
+    return rows.holds(rows.row(m.time_derivative({residual})[0])) == true;
 }
 
 /// The same of a start at rest at θ_0, where it holds too: θ'² = 2 g (cos θ − cos θ_0)/l.
@@ -179,6 +182,17 @@ bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math&
     if (!is_identically_zero(m.z->name(substitute(*m.z, {kept}, start)[0]), m)) return false;
     if (is_identically_zero(m.z->name(kept), m)) return false;
     return system_.rows().holds(system_.rows().row(m.time_derivative({kept})[0])) == true;
+}
+
+/// θ'² = g (cos θ − cos θ_0)/l of a motion that the words start from rest: with one degree of freedom and a constant
+/// energy the rate is known where the start is.
+bool Marker::is_wrong_energy_of_start(const ex& residual, const Math& lhs, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    const bool has_one = m.size() == static_cast<int>(system_.equations().A.size()) + 1 && places_.size() == 1;
+    if (!from_rest_ || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot)) return false;
+    if (!holds_rates(lhs) && !holds_rates(rhs)) return false;
+    const ex energy = truth_.value(letters_.name_of(MechanicalQuantity::energy));
+    return system_.rows().holds(system_.rows().row(m.time_derivative({energy})[0])) == true;
 }
 
 /// The rates that are zero just after the scene's impulses.

@@ -118,9 +118,14 @@ bool Marker::is_reduced_momentum(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// "(r'' = 0)"
+bool Marker::is_aside() const {
+    const std::size_t at = written_.text.find_last_not_of("$", statement_->offset > 0 ? statement_->offset - 1 : 0);
+    return statement_->offset > 0 && at != std::string::npos && written_.text[at] == '(';
+}
+
 /// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
 bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
-    const bool is_aside = statement_->offset > 1 && written_.text[statement_->offset - 1] == '(';
     const auto is_plain = [&](const Math& math) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
         std::map<Letter, int> all;
@@ -130,7 +135,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             return name == "pi" || (letters_.is_of_scene(name) && !letters_.moves(name));
         });
         const int most_dots =  // "if the hand is at rest, h'' = 0", "(r'' = 0)"
-            is_aside || begins_condition_of_state(statement_->words) ? 2 : 1;
+            is_aside() || begins_condition_of_state(statement_->words) ? 2 : 1;
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
@@ -143,7 +148,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             return m.z->depends(value, system_.equations().lambda) || m.z->depends(value, m.qdot);
         });
     };
-    if (!is_aside && !moves(sides.left) && !moves(sides.right)) return false;
+    if (!is_aside() && !moves(sides.left) && !moves(sides.right)) return false;
     if (speaks_of_special_case(statement_->words) || ends_at_place(statement_->words))
         under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;

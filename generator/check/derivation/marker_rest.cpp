@@ -163,7 +163,8 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
                rest_letters_.contains(item.first);
     });
     const bool is_said = !from_rest_ && (says_rest() || is_named || steady_lines_ > 0);
-    if (!statement_->displayed && begins_condition_of_state(statement_->words)) {  // "if ω = Ω"
+    const bool is_case = speaks_of_special_case(statement_->words);
+    if (!statement_->displayed && is_case) {  // "if ω = Ω", "Resonance ω_1 = 2 ω_2"
         under_condition_ = lines_of_condition;
         return false;
     }
@@ -206,7 +207,14 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         line.reason = say("of the motion that starts there from rest");
         return true;
     }
-    const bool is_surely_meant = is_said && !is_state_wrong_ && (!is_of_motion || speaks_of_small_);
+    if (is_wrong_energy_of_start(residual, lhs, rhs)) {
+        line.status = LineStatus::mistake;
+        line.reason = say("it does not hold on the motion that starts there from rest");
+        notes_.back().is_sure = true;
+        return true;
+    }
+    const bool is_value = !statement_->displayed && (is_number(lhs) || is_number(rhs));  // "θ_0 = π/2"
+    const bool is_surely_meant = !is_value && is_said && !is_state_wrong_ && (!is_of_motion || speaks_of_small_);
     if (!is_surely_meant || line.status == LineStatus::not_about_scene) return false;
     std::string reason;
     const Found found = found_at_rest(

@@ -110,7 +110,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     if (critical.contains(letter.letter.index)) return false;  // Ω_c, beyond which there are other states
     const bool of_period = (base == "T" || base == "tau" || base == "P") && speaks_of_period_;
     const bool of_turns = (base == "f" || base == "nu") && speaks_of_frequency_;
-    const bool of_angle = base == "omega" || base == "Omega" || base == "lambda";
+    const bool of_angle = base == "omega" || base == "Omega" || base == "lambda" || base == "w";
     if (!of_period && !of_turns && !(of_angle && (speaks_of_frequency_ || speaks_of_small_))) return false;
     const ClaimText text = claim_text(rhs, as_written());
     std::string omega = power == 2 ? text.text : "(" + text.text + ")^2";

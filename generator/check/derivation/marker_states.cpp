@@ -229,7 +229,8 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
                 identifier_of(state->first)));
     }
     const bool is_case = !statement_->displayed && speaks_of_special_case(statement_->words);
-    if (says_rest() && !is_case && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
+    const bool is_value = is_number(lhs) || is_number(rhs);  // F = 0
+    if (says_rest() && !is_case && !is_value && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
         judge_pair(line, lhs, rhs);
         if (is_right(line.status)) return true;
         line = before;

@@ -118,6 +118,7 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
     line.status = stated == false ? LineStatus::mistake : LineStatus::right;
     line.reason = stated == false ? say("it is another number with the values that stand above")
                                   : say("to the digits that are written");
+    notes_.back().is_sure = line.status == LineStatus::mistake;
     if (line.status == LineStatus::mistake)
         line.claim = claim_text(other, as_written()).text + fmt::format(" = {:.6g}", written);
     return true;

@@ -77,7 +77,14 @@ bool changes_with_time(const ex& e, const Mechanism& m) {
 RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system), kind_(std::move(kind)) {
     const Mechanism& m = system.mechanism();
     const Equations& e = system.equations();
-    if (!m.inputs.empty() || !e.speeds_are_rates()) return;
+    if (!e.speeds_are_rates()) return;
+    for (const Mechanism::Input& input : m.inputs) {  // a support that is accelerated: s = a t²/2
+        ex value = m.z->expand(input.value);
+        for (const GiNaC::symbol& derivative : input.derivative) {
+            inputs_[derivative] = value;
+            value = value.diff(m.t);
+        }
+    }
     if (kind_.steady) cyclic_ = cyclic_coordinates(system);
     if (kind_.steady && cyclic_.empty()) return;
     std::vector<GiNaC::symbol> unknown = m.q;
@@ -88,6 +95,7 @@ RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system)
     if (e.A.size() != e.lambda.size() || !m.undetermined().empty()) return;
     std::vector<ex> conditions, rows, momenta;  // what the coordinates obey, and the linearized constraints
     for (int i = 0; i < e.size(); ++i) conditions.push_back(m.z->name(e.forcing(i) + system.reaction(i)));
+    conditions = substitute(*m.z, conditions, inputs_);
     std::vector<ex> forces = conditions;
     for (std::size_t k = 0; k < e.A.size(); ++k) {
         if (m.constraints[k].position) {
@@ -130,7 +138,8 @@ RestStates::Nodes RestStates::lowered(const std::vector<ex>& list, const GiNaC::
         if (std::find(cyclic_.begin(), cyclic_.end(), i) == cyclic_.end()) there[m.qdot[i]] = 0;
     }
     Nodes nodes;
-    nodes.roots = system_.lower(program_, substitute(*m.z, substitute(*m.z, list, there), kind_.special));
+    nodes.roots = system_.lower(
+        program_, substitute(*m.z, substitute(*m.z, substitute(*m.z, list, inputs_), there), kind_.special));
     nodes.needed = program_.needed(nodes.roots);
     return nodes;
 }

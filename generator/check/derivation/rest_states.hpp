@@ -90,6 +90,7 @@ private:
 
     const DerivedSystem& system_;
     Kind kind_;
+    GiNaC::exmap inputs_;  ///< with their derivatives, in t
     bool is_usable_ = false;
     std::vector<std::size_t> cyclic_;  ///< coordinates that move
     Eigen::Index coordinates_ = 0, multipliers_ = 0, conditions_ = 0, holonomic_ = 0;

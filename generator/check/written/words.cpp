@@ -176,7 +176,7 @@ bool is_conditional(std::string_view words) {
         "einsetz*|einges*|ableit*|abgeleitet|differenzier*|multipliz*|umform*|addier*|subtrahier*|eliminier*|"
         "verwend*|代入*|求导*|微分*|整理*|展开*|相加*|相减*|消去*|sustitu*|deriv*|dériv*|rempla*|"
         "multipli*|élimin*|simplifi*";
-    return !has_phrase(sentence, operations);
+    return !has_phrase(sentence, operations) && !speaks_of_motion(sentence);
 }
 
 bool speaks_of_effective_potential(std::string_view words) {
@@ -289,7 +289,7 @@ constexpr std::string_view special_motions =
     "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
     "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
     "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
-    "circular|circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
+    "circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
     "rotation|steady turn*|constant inclination|"
     "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
     "régulière|"
@@ -298,14 +298,21 @@ constexpr std::string_view special_motions =
     "rotación uniforme|equilibrio relativo|équilibre relatif|relativen gleichgewicht*|relatives "
     "gleichgewicht|relative gleichgewichtslage*|匀速圆周*|稳态进动*|匀速转动*";
 
+/// "circular:" alone before a formula.
+bool is_label(std::string_view words, std::string_view phrases) {
+    constexpr std::size_t longest = 16;
+    const std::string sentence = last_sentence(words);
+    return sentence.size() < longest && has_phrase(sentence, phrases);
+}
+
 }  // namespace
 
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(last_sentence(words), special_motions);
+    return has_phrase(last_sentence(words), special_motions) || is_label(words, "circular|steady");
 }
 
 bool mentions_special_motion(std::string_view words) {
-    return has_phrase(in_lower_case(words), special_motions);
+    return has_phrase(in_lower_case(words), special_motions) || is_label(words, "circular|steady");
 }
 
 namespace {
@@ -348,7 +355,8 @@ bool mentions_rest(std::string_view words) {
 bool speaks_of_start_from_rest(std::string_view words) {
     return has_phrase(
         in_lower_case(words),
-        "from rest|at rest initially|initially at rest|aus der ruhe|anfangs in ruhe|静止开始*|从静止*|"
+        "from rest|desde el reposo|del reposo|du repos|sans vitesse initiale|sin velocidad inicial|ohne "
+        "anfangsgeschwindigkeit|由静止*|无初速*|at rest initially|initially at rest|aus der ruhe|anfangs in ruhe|静止开始*|从静止*|"
         "初始静止*|开始静止*|初始时静止*");
 }
 
