@@ -76,7 +76,25 @@ void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
     }
 }
 
+/// U = p_φ²/(2 m l² sin²θ) + … is the author's wherever it stands.
+void Marker::find_effective_potentials() {
+    for (const WrittenStatement& statement : written_.statements)
+        for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k) {
+            const Lone own = lone_letter(*statement.sides[k]);
+            const bool may_be = own.letter != nullptr && own.letter->letter.index.empty() &&
+                                (own.letter->letter.base == "U" || own.letter->letter.base == "V");
+            if (!may_be) continue;
+            std::map<Letter, int> all;
+            collect_letters(*statement.sides[k + 1], all);
+            const bool has_momentum = std::any_of(all.begin(), all.end(), [](const auto& item) {
+                return item.first.base == "p" && !item.first.index.empty();
+            });
+            if (has_momentum) letters_.leave_to_author(own.letter->letter);
+        }
+}
+
 void Marker::run() {
+    find_effective_potentials();
     for (std::size_t s = 0; s < written_.statements.size(); ++s) {
         statement_ = &written_.statements[s];
         words_after_ = words_behind(written_, *statement_);
@@ -125,13 +143,15 @@ void Marker::line(std::size_t s, std::size_t k) {
         collect_letters(*side, all);
         for (const auto& [letter, dots] : all) seen_.insert(letter);
     }
-    speaks_of_small_ = speaks_of_small_ || statement_->relations[k] == Relation::approximately;
+    relation_ = statement_->relations[k];
+    speaks_of_small_ = speaks_of_small_ || relation_ == Relation::approximately;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
         if (line.status == LineStatus::mistake) is_of_authors_function(line, lhs, rhs);
     } catch (const NoMeaning& not_understood) {
-        if (not_understood.unknown && !statement_->displayed && is_number(rhs))
-            under_condition_ = lines_of_condition;
+        const bool is_state = lhs.kind == Kind::letter && rhs.kind == Kind::letter && sets_value(statement_->words);
+        if (not_understood.unknown && !statement_->displayed && (is_number(rhs) || is_state))
+            under_condition_ = lines_of_condition;  // "with θ = θ_1 we get"
         const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
         line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
         line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
@@ -157,6 +177,14 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
     collect_letters(rhs, all);
     return std::count_if(all.begin(), all.end(), [&](const auto& item) { return !letters_.name_of(item.first); }) >
            1;
+}
+
+/// A letter of the author's for a place.
+bool Marker::is_of_place(const Math& side) const {
+    const auto name = letters_.name_of(side.letter);
+    const auto known = name ? known_.find(*name) : known_.end();
+    const Mechanism& m = system_.mechanism();
+    return known != known_.end() && m.z->depends(known->second, m.q) && !m.z->depends(known->second, m.qdot);
 }
 
 /// A letter of the author's, or a multiplier: each law may say anew what it is.

@@ -69,9 +69,11 @@ private:
     };
     using Components = std::vector<MathPtr>;
 
+    void find_effective_potentials();
     void line(std::size_t statement, std::size_t side);
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     bool is_of_motion(const Math& side) const;
+    bool is_of_place(const Math& side) const;
     bool is_unknown_force(const Letter& letter) const;
     bool is_effective_potential(const Math& lhs, const Math& rhs) const;
     bool holds_letters_that_move(const Math& math) const;
@@ -121,6 +123,7 @@ private:
     GiNaC::symbol coordinate_of_value(const Letter& letter) const;
     void know_state_letter(const Letter& letter, const GiNaC::symbol& value);
     bool is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool holds_function_of_state(const Math& math) const;
     bool is_near_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     void define_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
@@ -177,6 +180,7 @@ private:
     bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
+    static bool component_of_axis(const Letter& letter);
     bool is_on_other_axis(const Letter& letter, const GiNaC::ex& value);
     void count_velocity(const Letter& letter, int dots, const std::string& text);
     bool bind_to_momentum(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
@@ -251,11 +255,13 @@ private:
     bool speaks_of_small_ = false;      ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;   ///< whether its ∂/∂ψ' have been those of the independent rates
     std::set<Letter> seen_;             ///< letters of this line and those before
+    Relation relation_ = Relation::equal;  ///< of the line
     bool is_new_law_ = false;           ///< whether the line states a letter that stands nowhere before
     bool goes_on_ = false;              ///< whether the words only join two formulas of one sentence
+    bool speaks_of_turning_axes_ = false;  ///< whether these turn
     bool speaks_of_axes_ = false;       ///< whether the author has laid axes of his own
     bool has_own_gauge_ = false;        ///< whether its L differs from the scene's by a total derivative
-    static constexpr int lines_of_condition = 2;  ///< a display ends a sentence without a full stop
+    static constexpr int lines_of_condition = 3;  ///< a display ends a sentence without a full stop
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
     bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
     bool is_of_special_start_ = false;  ///< whether a line has held for motions with a special start alone

@@ -70,13 +70,20 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
     const bool is_value = lhs.kind == Kind::letter || is_at_time(lhs);
     const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
     const std::vector<std::string>& coordinates = letters_.coordinates();
-    if (!name || std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()) return false;
+    const bool is_own = is_value && is_of_place(lhs);  // u of y = y_s + u
+    if (!name || (!is_own && std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()))
+        return false;
     if (!speaks_of_time(rhs)) return false;
     std::set<Letter> unknown;
     for (const auto& [letter, dots] : all)
         if (!letters_.name_of(letter) && letter != Letter{.base = "t"}) unknown.insert(letter);
     if (!is_autonomous_ && unknown.empty()) return false;
-    motion_letters_.insert(unknown.begin(), unknown.end());
+    for (const auto& [letter, dots] : all)
+        if (quantity_of(letter) && letter.base == "U" && letter.index.empty()) unknown.insert(letter);  // u = U cos Ω t
+    for (const Letter& letter : unknown) {
+        motion_letters_.insert(letter);
+        if (quantity_of(letter)) letters_.leave_to_author(letter);
+    }
     return true;
 }
 
@@ -97,6 +104,9 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     if (is_lone_force(lhs) && names_part_of_forces(said_)) return say("the words speak of a part of the forces");
     if (is_autonomous_ && (speaks_of_time(lhs) || speaks_of_time(rhs)))
         return say("it describes one motion; lines are judged for all motions");
+    if (relation_ == Relation::approximately && has_quantities(sides_of(lhs, rhs)) &&
+        !system_.equations().A.empty())
+        return say("an approximation of energies on constraints is not judged");
     // T and V are what they are in every state, but not for every value of the parameters.
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
     const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
@@ -128,7 +138,8 @@ bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
         return known_.contains(name) && !letters_.is_of_scene(name);
     });
     return is_own && !has_quantities(sides) && is_of_parameters(truth_.value(sides.left.text)) &&
-           is_of_parameters(truth_.value(sides.right.text)) && speaks_of_special_case(statement_->words);
+           is_of_parameters(truth_.value(sides.right.text)) &&
+           ((lhs.kind == Kind::letter && rhs.kind == Kind::letter) || speaks_of_special_case(statement_->words));
 }
 
 /// A mistake only under every reading.

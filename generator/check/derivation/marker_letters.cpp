@@ -108,6 +108,7 @@ void Marker::hear(const std::string& words) {
     if (speaks_of_motion(words)) is_rest_assumed_ = speaks_of_impact_ = false;
     is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words);
     speaks_of_axes_ = speaks_of_axes_ || speaks_of_axes(words);
+    speaks_of_turning_axes_ = speaks_of_turning_axes_ || speaks_of_turning_axes(words);
     speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
     introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }
@@ -149,6 +150,9 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
+                const bool is_special = speaks_of_special_motion(statement.words) || speaks_of_rest(statement.words) ||
+                                        is_conditional(statement.words) || speaks_of_special_case(statement.words);
+                if (of_motion && is_special) continue;  // "on the circle S = M g"
                 if (!statement.displayed && is_number(value)) continue;  // "at θ = 0", "at the pole, λ = π/2"
                 if (of_motion && statement.consequence)
                     continue;  // "we get N = …" of the force that it determines
@@ -386,7 +390,8 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
                                     letter.letter.index.find_first_of("123") == 0;
         if ((binding.named || is_said) && !named && !is_of_own_axes) named = truth, point = binding.point;
     }
-    if (named && is_on_other_axis(letter.letter, value)) {
+    const bool is_component = letter.letter.base != "v" || component_of_axis(letter.letter);
+    if (named && ((speaks_of_turning_axes_ && is_component) || is_on_other_axis(letter.letter, value))) {
         define(line, letter, rhs, power);
         return true;
     }
@@ -394,6 +399,11 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         return letters_.is_of_scene(name) && !letters_.moves(name);
     });
     return named && !is_constant && tell(*named, point, false);  // ω = √(g/l) is no rate of a body
+}
+
+/// v_x, ω_z
+bool Marker::component_of_axis(const Letter& letter) {
+    return letter.index.find_first_of("xyzXYZ123") != std::string::npos;
 }
 
 /// y = l cos α with y downwards along the shaft: another axis of the scene, or one of its frames.

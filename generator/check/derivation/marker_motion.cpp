@@ -175,7 +175,8 @@ bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
     for (int i = 0; i < m.size(); ++i) all.push_back(system_.motion_residual(i));
     std::vector<ex> special;
     try {
-        special = substitute(*m.z, all, values);
+        special = substitute(*m.z, all, values);  // of inputs too, F = 0
+        special = substitute(*m.z, substitute(*m.z, special, system_.inputs_in_time()), values);
     } catch (const std::exception&) {  // m = 0 where something is divided by m
         return false;
     }

@@ -149,7 +149,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         });
     };
     if (!is_aside() && !moves(sides.left) && !moves(sides.right)) return false;
-    if (speaks_of_special_case(statement_->words) || ends_at_place(statement_->words))
+    if (speaks_of_special_case(statement_->words) || ends_at_place(statement_->words) ||
+        sets_value(statement_->words))
         under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
@@ -309,6 +310,14 @@ bool Marker::is_constant_of_potential(MarkedLine& line, const Sides& sides, cons
     MotionRows& rows = system_.rows();
     const bool is_constant = std::all_of(
         slopes.begin(), slopes.end(), [&](const ex& slope) { return rows.is_identity(rows.row(slope)) == true; });
+    const std::vector<BaseState> near = bases();
+    if (!is_constant && speaks_of_small_ && std::any_of(near.begin(), near.end(), [&](const BaseState& base) {
+            return is_small(value, base, 2, true, system_);
+        })) {
+        line.status = LineStatus::right_near;
+        line.reason = say("to first order near {}", near.front().text);
+        return true;
+    }
     line.status = is_constant ? LineStatus::right_up_to_constant : LineStatus::mistake;
     line.claim = sides.left.text + " = " + sides.right.text;
     return true;

@@ -157,6 +157,9 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
+    for (const auto& [letter, dots] : all)
+        if (dots > 0 && state_letters_.contains(letter)) return false;  // φ'_0
+    if (holds_function_of_state(lhs) || holds_function_of_state(rhs)) return false;
     static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
     const bool is_named = std::all_of(all.begin(), all.end(), [&](const auto& item) {
         return !state_letters_.contains(item.first) || indices.contains(item.first.index) ||
@@ -228,6 +231,14 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
                                : say("it holds at none of the states of rest");
     is_state_wrong_ = true;
     return true;
+}
+
+/// U''(r_0), a derivative that is taken before r is r_0.
+bool Marker::holds_function_of_state(const Math& math) const {
+    const bool is_here = math.kind == Kind::applied && math.args.size() == 1 && math.args[0]->kind == Kind::letter &&
+                         state_letters_.contains(math.args[0]->letter);
+    return is_here || std::any_of(math.args.begin(), math.args.end(),
+                                  [&](const MathPtr& arg) { return holds_function_of_state(*arg); });
 }
 
 /// Whether the line holds to first order near the states for which θ_0 stands.

@@ -227,6 +227,16 @@ bool Marker::deviates_from_motion() const {
 /// Whether it holds near the states of rest in numbers, or near those from which the author deviates.
 bool Marker::holds_near_some_rest(MarkedLine& line, const ex& residual) {
     if (!speaks_of_small_ || displacements_ != nullptr) return false;
+    MotionRows& rows = system_.rows();
+    const Mechanism& m = system_.mechanism();
+    for (const GiNaC::symbol& q : m.q) {  // l φ' + x' φ = 0 of a small φ, whatever x' is
+        if (!m.z->depends(residual, {q})) continue;
+        const ex exact = substitute(*m.z, {residual}, {{q, GiNaC::sin(q)}})[0];
+        if (rows.holds(rows.row(exact)) != true) continue;
+        line.status = LineStatus::right_near;
+        line.reason = say("to first order near {}", q.get_name() + " = 0");
+        return true;
+    }
     RestStates::About about;
     if (!own_bases_.empty())
         for (const auto& [q, text] : own_bases_.front().values)

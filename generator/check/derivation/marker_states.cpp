@@ -134,7 +134,8 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
         const bool may_be = letters_.is_of_scene(name) && !letters_.is_function(name);
         return name == "pi" || (may_be && (is_input(name) || (!letters_.moves(name) && !is_multiplier(name))));
     };
-    const bool is_said = !statement_->displayed && speaks_of_special_case(statement_->words);  // "for ω² = 2 g c"
+    const bool is_said = (!statement_->displayed && speaks_of_special_case(statement_->words)) ||
+                         ends_with_condition(statement_->words);  // "for ω² = 2 g c"
     if (all.empty() || (lhs.kind != Kind::letter && rhs.kind != Kind::letter && !is_said)) return false;
     const auto name_of = [&](const auto& item) { return letters_.name_of(item.first).value_or(""); };
     const auto is_of_scene = [&](const auto& item) {

@@ -78,13 +78,7 @@ RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system)
     const Mechanism& m = system.mechanism();
     const Equations& e = system.equations();
     if (!e.speeds_are_rates()) return;
-    for (const Mechanism::Input& input : m.inputs) {  // a support that is accelerated: s = a t²/2
-        ex value = m.z->expand(input.value);
-        for (const GiNaC::symbol& derivative : input.derivative) {
-            inputs_[derivative] = value;
-            value = value.diff(m.t);
-        }
-    }
+    inputs_ = system.inputs_in_time();
     if (kind_.steady) cyclic_ = cyclic_coordinates(system);
     if (kind_.steady && cyclic_.empty()) return;
     std::vector<GiNaC::symbol> unknown = m.q;
@@ -95,7 +89,7 @@ RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system)
     if (e.A.size() != e.lambda.size() || !m.undetermined().empty()) return;
     std::vector<ex> conditions, rows, momenta;  // what the coordinates obey, and the linearized constraints
     for (int i = 0; i < e.size(); ++i) conditions.push_back(m.z->name(e.forcing(i) + system.reaction(i)));
-    conditions = substitute(*m.z, conditions, inputs_);
+    conditions = substitute(*m.z, substitute(*m.z, conditions, kind_.special), inputs_);
     std::vector<ex> forces = conditions;
     for (std::size_t k = 0; k < e.A.size(); ++k) {
         if (m.constraints[k].position) {
@@ -139,7 +133,10 @@ RestStates::Nodes RestStates::lowered(const std::vector<ex>& list, const GiNaC::
     }
     Nodes nodes;
     nodes.roots = system_.lower(
-        program_, substitute(*m.z, substitute(*m.z, substitute(*m.z, list, inputs_), there), kind_.special));
+        program_,
+        substitute(*m.z,
+                   substitute(*m.z, substitute(*m.z, substitute(*m.z, list, kind_.special), inputs_), there),
+                   kind_.special));
     nodes.needed = program_.needed(nodes.roots);
     return nodes;
 }
@@ -391,7 +388,7 @@ RestStates::Found RestStates::vanishes_near(const ex& residual, const About& giv
         const Eigen::Map<const Eigen::VectorXd> slopes(here.data(), columns);
         const double size = slopes.norm();
         if (std::abs(here[static_cast<std::size_t>(columns)]) > alike * std::max(size, 1.0)) return Seen{};
-        if (size < alike) return Seen{.holds = true, .is_told = false};
+        if (size < alike) return std::nullopt;  // energies have no part of first order
         const Eigen::Index moving = there->momenta_by_rates.rows();
         Matrix rows = Matrix::Zero(n + 3 * multipliers_ + moving, columns);
         rows.topRows(n) << there->mass, -there->by_rates, -there->by_places, -there->rows.transpose();
@@ -436,6 +433,7 @@ RestStates::Found RestStates::is_frequency(const ex& square, const About& about)
         const double value = values(nodes, at)[0];
         const std::optional<Near> there = near(at);
         if (!there || !std::isfinite(value)) return std::nullopt;
+        if (std::abs(value) < alike && !square.is_zero()) return std::nullopt;  // what moves without resistance has that
         return Seen{.holds = solves(*there, value, true) || solves(*there, value, false) ||
                              oscillates(*there, value)};
     };

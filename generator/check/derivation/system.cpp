@@ -95,6 +95,18 @@ ex DerivedSystem::without_accelerations(const ex& e) const {
     return substitute(*m_.z, {e}, none)[0];
 }
 
+GiNaC::exmap DerivedSystem::inputs_in_time() const {
+    GiNaC::exmap result;
+    for (const Mechanism::Input& input : m_.inputs) {
+        ex value = m_.z->expand(input.value);
+        for (const GiNaC::symbol& derivative : input.derivative) {
+            result[derivative] = value;
+            value = value.diff(m_.t);
+        }
+    }
+    return result;
+}
+
 GiNaC::exmap DerivedSystem::without_resistance() const {
     std::vector<ex> forces;
     for (const Load& load : m_.loads)

@@ -69,6 +69,8 @@ public:
     std::vector<GiNaC::ex> conditions_of_rest() const;
     /// The expression without accelerations: at q'' = 0.
     GiNaC::ex without_accelerations(const GiNaC::ex& e) const;
+    /// The inputs and their derivatives as the scene gives them in t: a support's s = a t²/2.
+    GiNaC::exmap inputs_in_time() const;
     /// The values with which nothing resists a motion: the parameters of dampers and friction are zero. Empty if
     /// there are none such, or if these parameters do more than that.
     GiNaC::exmap without_resistance() const;

@@ -448,7 +448,17 @@ std::size_t item_length(std::string_view line) {
     if (is_open) rest.remove_prefix(1);
     const bool is_item = rest.size() > 2 && std::isalpha(static_cast<unsigned char>(rest[0])) != 0 && rest[1] == ')' &&
                          rest[2] == ' ' && std::string_view("=+-*/^").find(trimmed(rest.substr(2))[0]) == std::string_view::npos;
-    return is_item ? begin + (is_open ? 1 : 0) + 3 : 0;
+    if (is_item) return begin + (is_open ? 1 : 0) + 3;
+    rest = line.substr(begin);  // "COR. 1.  If …"
+    constexpr std::size_t longest_word = 8;
+    std::size_t at = 0;
+    while (at < rest.size() && std::isalpha(static_cast<unsigned char>(rest[at])) != 0) ++at;
+    if (at < 2 || at > longest_word || std::isupper(static_cast<unsigned char>(rest[0])) == 0) return 0;
+    if (at < rest.size() && rest[at] == '.') ++at;
+    if (at >= rest.size() || rest[at] != ' ') return 0;
+    const std::size_t number = ++at;
+    while (at < rest.size() && std::isdigit(static_cast<unsigned char>(rest[at])) != 0) ++at;
+    return at > number && rest.substr(at).starts_with(". ") ? begin + at + 2 : 0;
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ namespace {
 std::size_t end_of_first_sentence(std::string_view words, std::size_t begin) {
     for (std::size_t at = begin; at < words.size(); ++at) {
         const std::string_view rest = words.substr(at), before = words.substr(0, at + 1);
-        const bool is_stop = rest.front() == '.' && (rest.size() == 1 || rest[1] == ' ') &&
+        const bool is_stop = rest.front() == '.' && (rest.size() == 1 || rest[1] == ' ' || rest[1] == '*') &&
                              !before.ends_with("i.e.") && !before.ends_with("d.h.") && !before.ends_with("z.b.") &&
                              !before.ends_with("z.B.");
         if (is_stop || rest.starts_with("; ")) return at + 1;
@@ -104,7 +104,8 @@ bool speaks_of_first_order(std::string_view words) {
         "not|no|without|later|before|will follow|next section|next chapter|in contrast|unlike|nicht|kein*|ohne|"
         "später|bevor|不必*|无需*|不作*|不用*|以后*|未*|尚未*|之前*|下一节*";
     static constexpr std::string_view phrases =
-        "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
+        "small turn*|small swing*|small rotation*|small rock*|small libration*|small heading|small deviation*|kleine "
+        "drehung*|kleine pendel*|petits mouvements|petites rotations|pequeños giros|small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
         "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
         "near equilibrium|near the equilibrium|nearly at rest|about the equilibrium|higher order|higher-order|"
         "second order terms|quadratic "
@@ -200,6 +201,24 @@ bool neglects_terms(std::string_view words) {
                       "desprecia*|despreciable*|略去*|忽略*|远小于*|远大于*|很快时*|高速*");
 }
 
+bool speaks_of_turning_axes(std::string_view words) {
+    return has_phrase(in_lower_case(words),
+                      "rotating frame|rotating axes|turning axes|turning frame|moving axes|body axes|body-fixed|co-rotating|"
+                      "mitrotierend*|rotierenden system|drehenden achsen|körperfest*|repère tournant|référentiel tournant|repère "
+                      "du|axes mobiles|ejes móviles|ejes giratorios|sistema giratorio|转动参考系*|动坐标系*|动系*|随体*|连体*");
+}
+
+bool ends_with_condition(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',' || sentence.back() == ':'))
+        sentence.pop_back();
+    static constexpr std::string_view last[] = {"when",  "if",    "provided", "provided that", "only if", "wenn",   "falls",
+                                                "sofern", "si",   "cuando",   "lorsque",       "quand",   "only for"};
+    return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
+        return sentence == word || sentence.ends_with(" " + std::string(word));
+    });
+}
+
 bool neglects_gravity(std::string_view words) {
     return has_phrase(
         in_lower_case(words),
@@ -289,7 +308,7 @@ constexpr std::string_view special_motions =
     "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
     "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
     "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
-    "circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
+    "movimiento estacionario|stationnaire*|circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
     "rotation|steady turn*|constant inclination|"
     "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
     "régulière|"
@@ -544,6 +563,8 @@ bool is_prose(std::string_view word) {
         "has", "have", "this", "that", "then",  "thus", "hence", "where", "when", "which", "gives", "yields",
         "its", "our",  "here", "us",   "now",   "was",  "were",  "can",   "will", "both",  "also",  "since",
         "put", "say", "ok",   "OK",  "try",  "you",  "may",   "one",  "all",   "any",   "how",  "who",   "let's", "yes",
+        "und", "oder", "mit",  "aus",   "der",   "die",  "das",   "ist",   "wir",  "et",   "ou",
+        "est", "les",  "des",  "une",   "con",   "por",  "que",   "los",   "las",  "del",
         "not", "no",   "but",  "use",  "using", "set",  "find",  "take",  "per",  "via",   "into",  "I"};
     if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
     const std::string lower = in_lower_case(word);

@@ -41,6 +41,12 @@ bool neglects_resistance(std::string_view words);
 /// "Neglecting the square of Ω", "if both are small": what follows holds approximately.
 bool neglects_terms(std::string_view words);
 
+/// "In the rotating frame": components are along axes of the author's own.
+bool speaks_of_turning_axes(std::string_view words);
+
+/// Whether the last word is "when", "if": the formula that follows is a condition.
+bool ends_with_condition(std::string_view words);
+
 /// "Without gravity".
 bool neglects_gravity(std::string_view words);
 
