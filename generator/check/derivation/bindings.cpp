@@ -186,7 +186,8 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
             const std::string text =
                 fmt::format("dot(omega({0}),{1}({2}))", body.name, axis_names[component < 0 ? 2 : component],
                             component < 0 ? "N" : body.name);
-            const std::string size = component < 0 ? fmt::format("sqrt(dot(omega({0}),omega({0})))", body.name) : "";
+            const std::string size =
+                component < 0 ? fmt::format("sqrt(dot(omega({0}),omega({0})))", body.name) : "";
             result.push_back({.text = text, .named = body.named, .size = size});
             result.push_back({.text = "-" + text, .named = body.named, .reversed = true});
         }

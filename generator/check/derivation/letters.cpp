@@ -58,8 +58,8 @@ std::vector<std::string> hands_of(const std::string& base) {
         {"varrho", "rho"}, {"varkappa", "kappa"}, {"varsigma", "sigma"},
         {"ell", "l"},      {"hbar", "h"},         {"imath", "i"},
         {"varpi", "pi"},   {"th", "theta"},       {"ph", "phi"},
-        {"om", "omega"},   {"Om", "Omega"},   {"al", "alpha"},
-        {"be", "beta"},    {"ga", "gamma"},   {"lam", "lambda"},
+        {"om", "omega"},   {"Om", "Omega"},       {"al", "alpha"},
+        {"be", "beta"},    {"ga", "gamma"},       {"lam", "lambda"},
         {"eps", "epsilon"}};
     std::vector<std::string> result{base};
     for (const auto& [variant, letter] : plain) {
@@ -175,7 +175,8 @@ Letters::Letters(const Scene& scene) {
     }
     // A rate that is typed as w is written ω.
     const auto know_rate = [&](const std::string& name, const std::string& unit) {
-        const bool is_rate = unit == "rad/s" || unit == "1/s" || unit == "deg/s" || unit == "rpm" || unit == "s^-1";
+        const bool is_rate =
+            unit == "rad/s" || unit == "1/s" || unit == "deg/s" || unit == "rpm" || unit == "s^-1";
         if (!name.starts_with("w") || (!is_rate && !moving_.contains(name))) return;
         for (Letter letter : letters_of(name))
             if (letter.base == "w") letter.base = "omega", written_so_.emplace(letter, name);

@@ -149,7 +149,8 @@ void Marker::line(std::size_t s, std::size_t k) {
         judge(line, lhs, rhs, statement_->relations[k]);
         if (line.status == LineStatus::mistake) is_of_authors_function(line, lhs, rhs);
     } catch (const NoMeaning& not_understood) {
-        const bool is_state = lhs.kind == Kind::letter && rhs.kind == Kind::letter && sets_value(statement_->words);
+        const bool is_state =
+            lhs.kind == Kind::letter && rhs.kind == Kind::letter && sets_value(statement_->words);
         if (not_understood.unknown && !statement_->displayed && (is_number(rhs) || is_state))
             under_condition_ = lines_of_condition;  // "with θ = θ_1 we get"
         const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
@@ -204,9 +205,12 @@ bool Marker::is_effective_potential(const Math& lhs, const Math& rhs) const {
     return std::any_of(all.begin(), all.end(), [&](const auto& item) {
         const std::string name = letters_.name_of(item.first).value_or("");
         const auto known = known_.find(name);  // a momentum that the author has named
-        const bool is_momentum = known != known_.end() && system_.mechanism().z->depends(known->second, system_.mechanism().qdot);
-        const bool is_quantity = quantity_of(item.first) && quantity_of(item.first) != MechanicalQuantity::momentum;
-        return item.second == 0 && !is_quantity && !letters_.is_of_scene(name) && (kept_.contains(name) || is_momentum);
+        const bool is_momentum =
+            known != known_.end() && system_.mechanism().z->depends(known->second, system_.mechanism().qdot);
+        const bool is_quantity =
+            quantity_of(item.first) && quantity_of(item.first) != MechanicalQuantity::momentum;
+        return item.second == 0 && !is_quantity && !letters_.is_of_scene(name) &&
+               (kept_.contains(name) || is_momentum);
     });
 }
 
@@ -375,8 +379,8 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
     if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) ||
-        (is_aside() && is_assumption(line, sides)) || holds_after_impact(line, sides) || is_assumption(line, sides) ||
-        is_reduced_momentum(line, sides))
+        (is_aside() && is_assumption(line, sides)) || holds_after_impact(line, sides) ||
+        is_assumption(line, sides) || is_reduced_momentum(line, sides))
         return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
         is_equilibrium(line, sides) || is_given_value(line, sides) || is_on_branch(line, sides) ||

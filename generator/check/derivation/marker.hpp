@@ -241,7 +241,7 @@ private:
         std::string point;
         bool is_velocity;
     };
-    std::map<Letter, Motion> motions_;  ///< letters that are places and velocities
+    std::map<Letter, Motion> motions_;    ///< letters that are places and velocities
     std::set<Letter> frequency_letters_;  ///< ω that the derivation has found
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
@@ -249,35 +249,36 @@ private:
          speaks_of_period_ = false, speaks_of_roots_ = false, introduces_symbols_ = false,
          speaks_of_gibbs_ = false, speaks_of_impact_ = false, mentions_impact_ = false;
     const WrittenStatement* statement_ = nullptr;
-    std::string words_after_, said_;    ///< behind the statement, and with those before it
-    std::vector<BaseState> own_bases_;  ///< θ = π + ε: about which the author deviates
-    std::optional<BaseState> near_;     ///< about which the derivation linearizes, once a line has shown it
-    bool speaks_of_small_ = false;      ///< whether the derivation has begun to linearize
-    bool solves_constraints_ = false;   ///< whether its ∂/∂ψ' have been those of the independent rates
-    std::set<Letter> seen_;             ///< letters of this line and those before
+    std::string words_after_, said_;       ///< behind the statement, and with those before it
+    std::vector<BaseState> own_bases_;     ///< θ = π + ε: about which the author deviates
+    std::optional<BaseState> near_;        ///< about which the derivation linearizes, once a line has shown it
+    bool speaks_of_small_ = false;         ///< whether the derivation has begun to linearize
+    bool solves_constraints_ = false;      ///< whether its ∂/∂ψ' have been those of the independent rates
+    std::set<Letter> seen_;                ///< letters of this line and those before
     Relation relation_ = Relation::equal;  ///< of the line
-    bool is_new_law_ = false;           ///< whether the line states a letter that stands nowhere before
-    bool goes_on_ = false;              ///< whether the words only join two formulas of one sentence
+    bool is_new_law_ = false;              ///< whether the line states a letter that stands nowhere before
+    bool goes_on_ = false;                 ///< whether the words only join two formulas of one sentence
     bool speaks_of_turning_axes_ = false;  ///< whether these turn
-    bool speaks_of_axes_ = false;       ///< whether the author has laid axes of his own
-    bool has_own_gauge_ = false;        ///< whether its L differs from the scene's by a total derivative
+    bool speaks_of_axes_ = false;          ///< whether the author has laid axes of his own
+    bool has_own_gauge_ = false;           ///< whether its L differs from the scene's by a total derivative
     static constexpr int lines_of_condition = 3;  ///< a display ends a sentence without a full stop
     bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
     bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
     bool is_of_special_start_ = false;  ///< whether a line has held for motions with a special start alone
     int approximate_lines_ = 0;         ///< how many lines the words "neglecting …" may govern
-    int steady_lines_ = 0;             ///< how many lines what the words say of steady motion may govern
-    std::set<Letter> motion_letters_;  ///< in formulas of one motion: A and B of A cos ω t
-    bool conditioned_behind_ = false;  ///< whether the formula is followed by "at y = −l"
-    int under_condition_ = 0;          ///< how many lines the condition that the words state may govern
-    std::unique_ptr<RestStates> states_[6];                    ///< of rest and of steady motion: of all cases, and of the special one
-    std::set<Letter> state_letters_;   ///< θ_0 of a coordinate θ
-    GiNaC::exmap places_;              ///< their symbols, with the coordinates
-    std::set<Letter> rest_letters_;          ///< those of which a line has shown that they are values at rest
-    bool is_state_wrong_ = false;      ///< whether one of these lines was wrong
-    bool begins_case_ = true;      ///< whether a sentence or an item of a list has begun since the last of them
-    GiNaC::exmap case_;            ///< those of the last sentence or item of a list
-    GiNaC::exmap special_values_;  ///< of parameters, as the derivation states them
+    int steady_lines_ = 0;              ///< how many lines what the words say of steady motion may govern
+    std::set<Letter> motion_letters_;   ///< in formulas of one motion: A and B of A cos ω t
+    bool conditioned_behind_ = false;   ///< whether the formula is followed by "at y = −l"
+    int under_condition_ = 0;           ///< how many lines the condition that the words state may govern
+    std::unique_ptr<RestStates>
+        states_[6];                   ///< of rest and of steady motion: of all cases, and of the special one
+    std::set<Letter> state_letters_;  ///< θ_0 of a coordinate θ
+    GiNaC::exmap places_;             ///< their symbols, with the coordinates
+    std::set<Letter> rest_letters_;   ///< those of which a line has shown that they are values at rest
+    bool is_state_wrong_ = false;     ///< whether one of these lines was wrong
+    bool begins_case_ = true;         ///< whether a sentence or an item of a list has begun since the last of them
+    GiNaC::exmap case_;               ///< those of the last sentence or item of a list
+    GiNaC::exmap special_values_;     ///< of parameters, as the derivation states them
     std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
     bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
     std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such

@@ -64,8 +64,10 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
     collect_letters(lhs, all);
     collect_letters(rhs, all);
     const Lone lone = lone_letter(lhs);
-    if (lone.letter != nullptr && !speaks_of_time(rhs)) motion_letters_.erase(lone.letter->letter);  // "with ω_1 = …"
-    if (std::any_of(all.begin(), all.end(), [&](const auto& item) { return motion_letters_.contains(item.first); }))
+    if (lone.letter != nullptr && !speaks_of_time(rhs))
+        motion_letters_.erase(lone.letter->letter);  // "with ω_1 = …"
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const auto& item) { return motion_letters_.contains(item.first); }))
         return true;
     const bool is_value = lhs.kind == Kind::letter || is_at_time(lhs);
     const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
@@ -79,7 +81,8 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
         if (!letters_.name_of(letter) && letter != Letter{.base = "t"}) unknown.insert(letter);
     if (!is_autonomous_ && unknown.empty()) return false;
     for (const auto& [letter, dots] : all)
-        if (quantity_of(letter) && letter.base == "U" && letter.index.empty()) unknown.insert(letter);  // u = U cos Ω t
+        if (quantity_of(letter) && letter.base == "U" && letter.index.empty())
+            unknown.insert(letter);  // u = U cos Ω t
     for (const Letter& letter : unknown) {
         motion_letters_.insert(letter);
         if (quantity_of(letter)) letters_.leave_to_author(letter);
@@ -121,8 +124,8 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
         is_of_special_start_ = true;
         return say("it keeps its value, and holds for motions that start so");
     }
-    const bool may_use_start = is_of_special_start_ && !is_energy && !is_accelerated(lhs) && !is_accelerated(rhs) &&
-                               !has_quantities(sides_of(lhs, rhs));
+    const bool may_use_start = is_of_special_start_ && !is_energy && !is_accelerated(lhs) &&
+                               !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
     if (may_use_start) return say("it may hold for motions that start as the lines above say");
     if (!statement_->displayed && states_relation_of_constants(lhs, rhs)) {
         under_condition_ = lines_of_condition;
@@ -134,9 +137,9 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
 /// ω_1 = 2 ω_2 among words: constants of the author's, which may be so for some values of the parameters.
 bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
     const Sides sides = sides_of(lhs, rhs);
-    const bool is_own = std::any_of(sides.left.names.begin(), sides.left.names.end(), [&](const std::string& name) {
-        return known_.contains(name) && !letters_.is_of_scene(name);
-    });
+    const bool is_own =
+        std::any_of(sides.left.names.begin(), sides.left.names.end(),
+                    [&](const std::string& name) { return known_.contains(name) && !letters_.is_of_scene(name); });
     return is_own && !has_quantities(sides) && is_of_parameters(truth_.value(sides.left.text)) &&
            is_of_parameters(truth_.value(sides.right.text)) &&
            ((lhs.kind == Kind::letter && rhs.kind == Kind::letter) || speaks_of_special_case(statement_->words));
@@ -195,12 +198,13 @@ bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math&
     return system_.rows().holds(system_.rows().row(m.time_derivative({kept})[0])) == true;
 }
 
-/// θ'² = g (cos θ − cos θ_0)/l of a motion that the words start from rest: with one degree of freedom and a constant
-/// energy the rate is known where the start is.
+/// θ'² = g (cos θ − cos θ_0)/l of a motion that the words start from rest: with one degree of freedom and a
+/// constant energy the rate is known where the start is.
 bool Marker::is_wrong_energy_of_start(const ex& residual, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     const bool has_one = m.size() == static_cast<int>(system_.equations().A.size()) + 1 && places_.size() == 1;
-    if (!from_rest_ || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot)) return false;
+    if (!from_rest_ || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
+        return false;
     if (!holds_rates(lhs) && !holds_rates(rhs)) return false;
     const ex energy = truth_.value(letters_.name_of(MechanicalQuantity::energy));
     return system_.rows().holds(system_.rows().row(m.time_derivative({energy})[0])) == true;

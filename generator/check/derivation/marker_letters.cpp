@@ -150,9 +150,10 @@ bool Marker::introduce_ahead(const Letter& letter) {
                            &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
-                const bool is_special = speaks_of_special_motion(statement.words) || speaks_of_rest(statement.words) ||
-                                        is_conditional(statement.words) || speaks_of_special_case(statement.words);
-                if (of_motion && is_special) continue;  // "on the circle S = M g"
+                const bool is_special = speaks_of_special_motion(statement.words) ||
+                                        speaks_of_rest(statement.words) || is_conditional(statement.words) ||
+                                        speaks_of_special_case(statement.words);
+                if (of_motion && is_special) continue;                   // "on the circle S = M g"
                 if (!statement.displayed && is_number(value)) continue;  // "at θ = 0", "at the pole, λ = π/2"
                 if (of_motion && statement.consequence)
                     continue;  // "we get N = …" of the force that it determines

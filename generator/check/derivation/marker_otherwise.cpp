@@ -120,7 +120,8 @@ bool Marker::is_reduced_momentum(MarkedLine& line, const Sides& sides) {
 
 /// "(r'' = 0)"
 bool Marker::is_aside() const {
-    const std::size_t at = written_.text.find_last_not_of("$", statement_->offset > 0 ? statement_->offset - 1 : 0);
+    const std::size_t at =
+        written_.text.find_last_not_of("$", statement_->offset > 0 ? statement_->offset - 1 : 0);
     return statement_->offset > 0 && at != std::string::npos && written_.text[at] == '(';
 }
 

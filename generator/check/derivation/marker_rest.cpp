@@ -235,8 +235,8 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
 
 /// U''(r_0), a derivative that is taken before r is r_0.
 bool Marker::holds_function_of_state(const Math& math) const {
-    const bool is_here = math.kind == Kind::applied && math.args.size() == 1 && math.args[0]->kind == Kind::letter &&
-                         state_letters_.contains(math.args[0]->letter);
+    const bool is_here = math.kind == Kind::applied && math.args.size() == 1 &&
+                         math.args[0]->kind == Kind::letter && state_letters_.contains(math.args[0]->letter);
     return is_here || std::any_of(math.args.begin(), math.args.end(),
                                   [&](const MathPtr& arg) { return holds_function_of_state(*arg); });
 }

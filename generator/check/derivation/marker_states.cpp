@@ -209,10 +209,9 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
-    const auto state =
-        std::find_if(all.begin(), all.end(), [&](const auto& item) {
-            return is_value_of_state(item.first) || depends_on_state(item.first);
-        });
+    const auto state = std::find_if(all.begin(), all.end(), [&](const auto& item) {
+        return is_value_of_state(item.first) || depends_on_state(item.first);
+    });
     if (state != all.end() && !letters_.is_authors(state->first)) {
         const LineNotes notes = notes_.back();
         try {
@@ -231,7 +230,8 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     }
     const bool is_case = !statement_->displayed && speaks_of_special_case(statement_->words);
     const bool is_value = is_number(lhs) || is_number(rhs);  // F = 0
-    if (says_rest() && !is_case && !is_value && states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
+    if (says_rest() && !is_case && !is_value &&
+        states_special_case(lhs, rhs, all)) {  // P = (R − r) M g/(2 R) in equilibrium
         judge_pair(line, lhs, rhs);
         if (is_right(line.status)) return true;
         line = before;
@@ -266,8 +266,8 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
         notes_.back().claim = {};
         return true;
     }
-    if (!(speaks_of_impact_ || speaks_of_conservation(said_)) || system_.scene().impulses.empty() || has_quantities(sides) ||
-        is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
+    if (!(speaks_of_impact_ || speaks_of_conservation(said_)) || system_.scene().impulses.empty() ||
+        has_quantities(sides) || is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
         return false;
     LineClaim claim = notes_.back().claim;
     claim.at_impact = true;

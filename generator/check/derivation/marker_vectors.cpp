@@ -173,7 +173,8 @@ bool Marker::bind_vector(const Math& letter, const Components& value) {
             break;
         }
         const std::string& index = letter.letter.index;
-        const bool may_count_otherwise = !index.empty() && index.find_first_not_of("0123456789") == std::string::npos &&
+        const bool may_count_otherwise = !index.empty() &&
+                                         index.find_first_not_of("0123456789") == std::string::npos &&
                                          !is_counted(system_.scene());
         if (binding.named && !may_count_otherwise && !chosen)
             chosen = std::vector<std::string>(std::begin(binding.component), std::end(binding.component));

@@ -134,8 +134,7 @@ RestStates::Nodes RestStates::lowered(const std::vector<ex>& list, const GiNaC::
     Nodes nodes;
     nodes.roots = system_.lower(
         program_,
-        substitute(*m.z,
-                   substitute(*m.z, substitute(*m.z, substitute(*m.z, list, kind_.special), inputs_), there),
+        substitute(*m.z, substitute(*m.z, substitute(*m.z, substitute(*m.z, list, kind_.special), inputs_), there),
                    kind_.special));
     nodes.needed = program_.needed(nodes.roots);
     return nodes;
@@ -266,8 +265,7 @@ Eigen::VectorXcd RestStates::eigenvalues(const Near& near) {
     const Matrix free = near.rows.rows() == 0 ? Matrix(Matrix::Identity(size, size))
                                               : Matrix(Eigen::FullPivLU<Matrix>(near.rows).kernel());
     const Eigen::Index n = free.cols();
-    const Matrix inverse =
-        (free.transpose() * near.mass * free).completeOrthogonalDecomposition().pseudoInverse();
+    const Matrix inverse = (free.transpose() * near.mass * free).completeOrthogonalDecomposition().pseudoInverse();
     Matrix all = Matrix::Zero(2 * n, 2 * n);
     all.topRightCorner(n, n) = Matrix::Identity(n, n);
     all.bottomLeftCorner(n, n) = inverse * (free.transpose() * near.by_places * free);
@@ -433,9 +431,10 @@ RestStates::Found RestStates::is_frequency(const ex& square, const About& about)
         const double value = values(nodes, at)[0];
         const std::optional<Near> there = near(at);
         if (!there || !std::isfinite(value)) return std::nullopt;
-        if (std::abs(value) < alike && !square.is_zero()) return std::nullopt;  // what moves without resistance has that
-        return Seen{.holds = solves(*there, value, true) || solves(*there, value, false) ||
-                             oscillates(*there, value)};
+        if (std::abs(value) < alike && !square.is_zero())
+            return std::nullopt;  // what moves without resistance has that
+        return Seen{.holds =
+                        solves(*there, value, true) || solves(*there, value, false) || oscillates(*there, value)};
     };
     const Found found = weighed(any, test);
     if (found != Found::unknown || !about.places.empty() || !is_linear()) return found;

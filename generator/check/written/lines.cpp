@@ -324,7 +324,8 @@ void DocumentReader::add_word(std::vector<WrittenToken>& tokens, const std::stri
     if (!tokens.empty() && tokens.back().kind == LineKind::text) {
         std::string& text = tokens.back().text;
         const auto is_wide = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
-        if (text.size() > 1 && is_wide(text[text.size() - 2]) && is_wide(word[0])) text.pop_back();  // 平衡时 is one word
+        if (text.size() > 1 && is_wide(text[text.size() - 2]) && is_wide(word[0]))
+            text.pop_back();  // 平衡时 is one word
         text += word + " ";
         tokens.back().length = offset + word.size() - tokens.back().offset;
         return;
@@ -446,8 +447,9 @@ std::size_t item_length(std::string_view line) {
     std::string_view rest = line.substr(begin);
     const bool is_open = rest.starts_with('(');
     if (is_open) rest.remove_prefix(1);
-    const bool is_item = rest.size() > 2 && std::isalpha(static_cast<unsigned char>(rest[0])) != 0 && rest[1] == ')' &&
-                         rest[2] == ' ' && std::string_view("=+-*/^").find(trimmed(rest.substr(2))[0]) == std::string_view::npos;
+    const bool is_item = rest.size() > 2 && std::isalpha(static_cast<unsigned char>(rest[0])) != 0 &&
+                         rest[1] == ')' && rest[2] == ' ' &&
+                         std::string_view("=+-*/^").find(trimmed(rest.substr(2))[0]) == std::string_view::npos;
     if (is_item) return begin + (is_open ? 1 : 0) + 3;
     rest = line.substr(begin);  // "COR. 1.  If …"
     constexpr std::size_t longest_word = 8;

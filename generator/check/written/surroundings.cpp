@@ -79,7 +79,9 @@ bool is_limit(const Written& written, const WrittenStatement& statement) {
     std::string before = written.text.substr(from, statement.offset - from);
     for (const char* const stop : {". ", ".\n", "。", "\n\n"})
         if (const std::size_t end = before.rfind(stop); end != std::string::npos) before.erase(0, end + 1);
-    static constexpr const char* limits[] = {"\\gg", "\\ll", "≫", "≪", ">>", "<<", "\\infty", "∞", "\\to 0", "\\to0", "-> oo", "->oo", "-> infinity", "-> 0", "->0", "→ oo", "→ 0", "→0", "\\rightarrow 0"};
+    static constexpr const char* limits[] = {
+        "\\gg",  "\\ll", "≫",           "≪",    ">>",  "<<",   "\\infty", "∞",  "\\to 0",        "\\to0",
+        "-> oo", "->oo", "-> infinity", "-> 0", "->0", "→ oo", "→ 0",     "→0", "\\rightarrow 0"};
     return std::any_of(std::begin(limits), std::end(limits),
                        [&](const char* limit) { return before.find(limit) != std::string::npos; });
 }

@@ -104,8 +104,10 @@ bool speaks_of_first_order(std::string_view words) {
         "not|no|without|later|before|will follow|next section|next chapter|in contrast|unlike|nicht|kein*|ohne|"
         "später|bevor|不必*|无需*|不作*|不用*|以后*|未*|尚未*|之前*|下一节*";
     static constexpr std::string_view phrases =
-        "small turn*|small swing*|small rotation*|small rock*|small libration*|small heading|small deviation*|kleine "
-        "drehung*|kleine pendel*|petits mouvements|petites rotations|pequeños giros|small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
+        "small turn*|small swing*|small rotation*|small rock*|small libration*|small heading|small "
+        "deviation*|kleine "
+        "drehung*|kleine pendel*|petits mouvements|petites rotations|pequeños giros|small angle*|small "
+        "oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
         "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
         "near equilibrium|near the equilibrium|nearly at rest|about the equilibrium|higher order|higher-order|"
         "second order terms|quadratic "
@@ -195,25 +197,31 @@ bool speaks_of_constant_value(std::string_view words) {
 }
 
 bool neglects_terms(std::string_view words) {
-    return has_phrase(last_sentence(words),
-                      "at the critical*|critical load|im kritischen*|kritischen last|charge critique|carga crítica|临界*|neglect*|negligible|drop the|dropping|ignore|ignoring|left aside|disregard*|are small|is small|replaced by "
-                      "the linear*|fast top|rapid*|vernachlässig*|vernachlaessig*|klein gegen|néglig*|négliger|petit devant|"
-                      "desprecia*|despreciable*|略去*|忽略*|远小于*|远大于*|很快时*|高速*");
+    return has_phrase(
+        last_sentence(words),
+        "at the critical*|critical load|im kritischen*|kritischen last|charge critique|carga "
+        "crítica|临界*|neglect*|negligible|drop the|dropping|ignore|ignoring|left aside|disregard*|are small|is "
+        "small|replaced by "
+        "the linear*|fast top|rapid*|vernachlässig*|vernachlaessig*|klein gegen|néglig*|négliger|petit devant|"
+        "desprecia*|despreciable*|略去*|忽略*|远小于*|远大于*|很快时*|高速*");
 }
 
 bool speaks_of_turning_axes(std::string_view words) {
-    return has_phrase(in_lower_case(words),
-                      "rotating frame|rotating axes|turning axes|turning frame|moving axes|body axes|body-fixed|co-rotating|"
-                      "mitrotierend*|rotierenden system|drehenden achsen|körperfest*|repère tournant|référentiel tournant|repère "
-                      "du|axes mobiles|ejes móviles|ejes giratorios|sistema giratorio|转动参考系*|动坐标系*|动系*|随体*|连体*");
+    return has_phrase(
+        in_lower_case(words),
+        "rotating frame|rotating axes|turning axes|turning frame|moving axes|body axes|body-fixed|co-rotating|"
+        "mitrotierend*|rotierenden system|drehenden achsen|körperfest*|repère tournant|référentiel "
+        "tournant|repère "
+        "du|axes mobiles|ejes móviles|ejes giratorios|sistema giratorio|转动参考系*|动坐标系*|动系*|随体*|连体*");
 }
 
 bool ends_with_condition(std::string_view words) {
     std::string sentence = last_sentence(words);
     while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',' || sentence.back() == ':'))
         sentence.pop_back();
-    static constexpr std::string_view last[] = {"when",  "if",    "provided", "provided that", "only if", "wenn",   "falls",
-                                                "sofern", "si",   "cuando",   "lorsque",       "quand",   "only for"};
+    static constexpr std::string_view last[] = {
+        "when",   "if", "provided", "provided that", "only if", "wenn",    "falls",
+        "sofern", "si", "cuando",   "lorsque",       "quand",   "only for"};
     return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
         return sentence == word || sentence.ends_with(" " + std::string(word));
     });
@@ -293,8 +301,10 @@ bool speaks_of_special_case(std::string_view words) {
                last_sentence(words),
                "si|cuando|caso particular|casos particulares|cas particulier|dans le cas|en el "
                "caso|pour|para|spezialfall|"
-               "case 1|case 2|case 3|case 4|case a|case b|case i|case ii|fall 1|fall 2|fall 3|cas 1|cas 2|caso 1|caso 2|"
-               "resonance|resonanz|resonancia|résonance|特例*|特别地*|情形*|情况*|共振*|sonderfälle|special cases|limiting case*|grenzfall*|cas limite|caso límite|"
+               "case 1|case 2|case 3|case 4|case a|case b|case i|case ii|fall 1|fall 2|fall 3|cas 1|cas 2|caso "
+               "1|caso 2|"
+               "resonance|resonanz|resonancia|résonance|特例*|特别地*|情形*|情况*|共振*|sonderfälle|special "
+               "cases|limiting case*|grenzfall*|cas limite|caso límite|"
                "special case|in the case|in case|provided|only for|only if|sonderfall|特殊情形*|特例*|当且仅当*");
 }
 
@@ -308,7 +318,8 @@ constexpr std::string_view special_motions =
     "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
     "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
     "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
-    "movimiento estacionario|stationnaire*|circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|horizontal circle*|uniform "
+    "movimiento estacionario|stationnaire*|circle of radius|kreis vom radius|kreis mit|on the circle|on a "
+    "circle|horizontal circle*|uniform "
     "rotation|steady turn*|constant inclination|"
     "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
     "régulière|"
@@ -318,28 +329,30 @@ constexpr std::string_view special_motions =
     "gleichgewicht|relative gleichgewichtslage*|匀速圆周*|稳态进动*|匀速转动*";
 
 /// "circular:" alone before a formula.
-bool is_label(std::string_view words, std::string_view phrases) {
-    constexpr std::size_t longest = 16;
-    const std::string sentence = last_sentence(words);
-    return sentence.size() < longest && has_phrase(sentence, phrases);
+bool is_label(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ':')) sentence.pop_back();
+    return sentence == "circular" || sentence == "steady";
 }
 
 }  // namespace
 
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(last_sentence(words), special_motions) || is_label(words, "circular|steady");
+    return has_phrase(last_sentence(words), special_motions) || is_label(words);
 }
 
 bool mentions_special_motion(std::string_view words) {
-    return has_phrase(in_lower_case(words), special_motions) || is_label(words, "circular|steady");
+    return has_phrase(in_lower_case(words), special_motions) || is_label(words);
 }
 
 namespace {
 
 bool is_of_rest(const std::string& sentence) {
     const bool is_of_start = has_phrase(
-        sentence, "start*|initially|released|remains|not at rest|from rest|desde el reposo|del reposo|du repos|aus der "
-                              "ruhe|let go|losgelassen|loslassen|soltar|suelta|lâch*|parte del|inicial*|initial*|由静止*|从静止*|静止开始*|初始*|冲击前*|碰撞前*");
+        sentence,
+        "start*|initially|released|remains|not at rest|from rest|desde el reposo|del reposo|du repos|aus der "
+        "ruhe|let go|losgelassen|loslassen|soltar|suelta|lâch*|parte "
+        "del|inicial*|initial*|由静止*|从静止*|静止开始*|初始*|冲击前*|碰撞前*");
     const bool is_of_place =
         has_phrase(sentence,
                    "from the equilibrium*|from equilibrium|measured*|displacement from*|deviation*|about the "
@@ -347,8 +360,10 @@ bool is_of_rest(const std::string& sentence) {
     return !is_of_start && !is_of_place &&
            has_phrase(
                sentence,
-               "at rest|rests|equilibri*|equil|eqm|eq. pos*|rest position*|gleichgewicht|gleichgewichte|ggl|ruhelage|"
-               "posición de equilibrio|en reposo|au repos|position d'équilibre|accelerations zero|principle of virtual work|静止*|平衡*|虚位移原理*|"
+               "at rest|rests|equilibri*|equil|eqm|eq. pos*|rest "
+               "position*|gleichgewicht|gleichgewichte|ggl|ruhelage|"
+               "posición de equilibrio|en reposo|au repos|position d'équilibre|accelerations zero|principle of "
+               "virtual work|静止*|平衡*|虚位移原理*|"
                "虚功原理*|加速度为零*|im gleichgewicht|gleichgewichtslage*|gleichgewichtsbedingung*|ruhelage*|"
                "équilibre");
 }
@@ -375,7 +390,8 @@ bool speaks_of_start_from_rest(std::string_view words) {
     return has_phrase(
         in_lower_case(words),
         "from rest|desde el reposo|del reposo|du repos|sans vitesse initiale|sin velocidad inicial|ohne "
-        "anfangsgeschwindigkeit|由静止*|无初速*|at rest initially|initially at rest|aus der ruhe|anfangs in ruhe|静止开始*|从静止*|"
+        "anfangsgeschwindigkeit|由静止*|无初速*|at rest initially|initially at rest|aus der ruhe|anfangs in "
+        "ruhe|静止开始*|从静止*|"
         "初始静止*|开始静止*|初始时静止*");
 }
 
@@ -385,7 +401,8 @@ bool speaks_of_impact(std::string_view words) {
         "after the impact|after impact|right after|impulse gives|blow gives|impact gives|after the "
         "collision|after the blow|after the impulse|just after|"
         "immediately after|juste après|aussitôt après|immédiatement après|après la percussion|après le choc|justo "
-        "después|inmediatamente después|tras el impacto|tras la percusión|después del choque|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
+        "después|inmediatamente después|tras el impacto|tras la percusión|después del "
+        "choque|碰撞结束*|碰撞后*|撞击后*|冲击后*|打击后*|碰撞完*|nach dem stoß|nach dem stoss|"
         "unmittelbar nach");
 }
 
@@ -558,14 +575,14 @@ bool denies(std::string_view words) {
 
 bool is_prose(std::string_view word) {
     static constexpr std::string_view short_words[] = {
-        "a",   "an",   "the",  "is",   "are",   "be",   "of",    "to",    "in",   "on",    "at",    "by",
-        "for", "from", "with", "and",  "or",    "so",   "we",    "it",    "as",   "if",    "let",   "get",
-        "has", "have", "this", "that", "then",  "thus", "hence", "where", "when", "which", "gives", "yields",
-        "its", "our",  "here", "us",   "now",   "was",  "were",  "can",   "will", "both",  "also",  "since",
-        "put", "say", "ok",   "OK",  "try",  "you",  "may",   "one",  "all",   "any",   "how",  "who",   "let's", "yes",
-        "und", "oder", "mit",  "aus",   "der",   "die",  "das",   "ist",   "wir",  "et",   "ou",
-        "est", "les",  "des",  "une",   "con",   "por",  "que",   "los",   "las",  "del",
-        "not", "no",   "but",  "use",  "using", "set",  "find",  "take",  "per",  "via",   "into",  "I"};
+        "a",     "an",   "the",  "is",    "are",  "be",   "of",    "to",    "in",   "on",    "at",    "by",
+        "for",   "from", "with", "and",   "or",   "so",   "we",    "it",    "as",   "if",    "let",   "get",
+        "has",   "have", "this", "that",  "then", "thus", "hence", "where", "when", "which", "gives", "yields",
+        "its",   "our",  "here", "us",    "now",  "was",  "were",  "can",   "will", "both",  "also",  "since",
+        "put",   "say",  "ok",   "OK",    "try",  "you",  "may",   "one",   "all",  "any",   "how",   "who",
+        "let's", "yes",  "und",  "oder",  "mit",  "aus",  "der",   "die",   "das",  "ist",   "wir",   "et",
+        "ou",    "est",  "les",  "des",   "une",  "con",  "por",   "que",   "los",  "las",   "del",   "not",
+        "no",    "but",  "use",  "using", "set",  "find", "take",  "per",   "via",  "into",  "I"};
     if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
     const std::string lower = in_lower_case(word);
     if (std::find(std::begin(short_words), std::end(short_words), lower) != std::end(short_words) &&
