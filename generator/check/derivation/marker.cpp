@@ -97,6 +97,7 @@ void Marker::run() {
     find_effective_potentials();
     for (std::size_t s = 0; s < written_.statements.size(); ++s) {
         statement_ = &written_.statements[s];
+        if (statement_->sides.size() == 1) continue;  // a letter among the words of the next one
         words_after_ = words_behind(written_, *statement_);
         said_ = statement_->words + " " + words_after_;
         conditioned_behind_ = is_conditioned_behind(written_, *statement_);
