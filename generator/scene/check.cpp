@@ -420,8 +420,10 @@ private:
                                      first->second.line));
     }
 
-    /// A table of the motion has columns of these names already.
-    void check_column(const Name& output) {
+    /// A table of the motion has columns of these names already; that of x = "x" is the same.
+    void check_column(const Output& of) {
+        const Name& output = of.name;
+        if (of.value.tree && of.value.tree->kind == Tree::Kind::name && of.value.tree->text == output.text) return;
         const Declared* const declared = NameSpaces::find(names_.values, output.text);
         using Kind = Declared::Kind;
         const bool is_column = declared && (declared->kind == Kind::coordinate || declared->kind == Kind::speed ||
@@ -441,7 +443,7 @@ private:
             .subject = say("an output"), .order = 2, .input_order = 2, .time = true, .multipliers = true};
         for (const Output& output : scene_.outputs) {
             need_name(output.name, diagnostics_);
-            check_column(output.name);
+            check_column(output);
             quantities_.check(output.value, anything);
         }
         std::unordered_map<std::string, Place> events;
