@@ -98,17 +98,21 @@ int run_claims(Scene scene, const CheckOptions& options) {
     return exit_code(checked.checked, options.complete);
 }
 
-void write_book(const Gradebook& book, const CheckOptions& options, const Scene& scene) {
-    if (!options.csv.empty()) write_file(options.csv, as_csv(book), {options.scene});
+void write_book(const Gradebook& book, const CheckOptions& options, const Scene& scene,
+                const std::vector<std::string>& inputs) {
+    if (!options.csv.empty()) write_file(options.csv, as_csv(book), inputs);
     if (!options.page.empty())
-        write_file(options.page, as_html(book, {.title = scene.title, .version = ALEMBERT_VERSION}),
-                   {options.scene});
+        write_file(options.page, as_html(book, {.title = scene.title, .version = ALEMBERT_VERSION}), inputs);
 }
 
 int run_folder(const Scene& scene, const CheckOptions& options) {
-    const Gradebook book =
-        grade(scene, derivations_in(options.claims), mark_options(options), !options.page.empty());
-    write_book(book, options, scene);
+    const std::vector<std::string> files = derivations_in(options.claims);
+    std::vector<std::string> inputs = files;
+    inputs.push_back(options.scene);
+    for (const std::string* output : {&options.page, &options.csv, &options.json_file})
+        check_output(*output, inputs);
+    const Gradebook book = grade(scene, files, mark_options(options), !options.page.empty());
+    write_book(book, options, scene, inputs);
     tell(
         options, [&] { return as_json(book); }, [&] { show(as_text(book, ink_for(STDOUT_FILENO))); });
     return exit_code(book);

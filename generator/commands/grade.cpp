@@ -96,12 +96,24 @@ void collect(std::FILE* rows, Gradebook& book) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a file is in the folder or below it, after links: those that lead out of it are nobody's homework.
+bool is_inside(const fs::path& file, const fs::path& folder) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(file, error), root = fs::canonical(folder, error);
+    return !error && std::mismatch(root.begin(), root.end(), whole.begin(), whole.end()).first == root.end();
+}
+
+}  // namespace
+
 std::vector<std::string> derivations_in(const std::string& folder) {
     std::vector<std::string> files;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
         const std::string ending = ending_of(entry.path().string());
-        if (entry.is_regular_file(error) && (ending == ".tex" || ending == ".md" || ending == ".txt"))
+        if (entry.is_regular_file(error) && is_inside(entry.path(), folder) &&
+            (ending == ".tex" || ending == ".md" || ending == ".txt"))
             files.push_back(entry.path().string());
     }
     if (error) throw ModelError(say("{}: the folder cannot be read: {}", folder, error.message()));

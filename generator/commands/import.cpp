@@ -51,8 +51,16 @@ void refuse_changes(const std::string& robot, const std::vector<Robot::Dropped>&
                 robot, escaped(fmt::format("{}", fmt::join(changes, "; ")), 2000)));
 }
 
+/// What versions of MuJoCo take otherwise, where it is in the scene: motors are with --drives.
+void refuse_versions(const std::string& robot, const std::vector<Diagnostic>& remarks, bool is_driven) {
+    for (const Diagnostic& remark : remarks)
+        if (remark.kind == "version" && is_driven)
+            throw ModelError(say("{}:{}:{}: {}; nothing is written with --strict", robot, remark.place.line,
+                                 remark.place.column, remark.message));
+}
+
 int run(const ImportVerb& verb) {
-    check_output(verb.output, FileForm::scene, {verb.robot});
+    check_output(verb.output, FileForm::scene, {verb.robot, verb.loops});
     const ImportedRobot imported = imported_robot(verb.robot, {.scene = verb.scene,
                                                                .others = verb.others,
                                                                .right_angles = verb.right_angles,
@@ -60,7 +68,7 @@ int run(const ImportVerb& verb) {
                                                                .loops = verb.loops});
     const RobotScene& scene = imported.scene;
     parse_scene(scene.text, verb.output);  // a scene that is refused is not written
-    write_file(verb.output, scene.text, {verb.robot});
+    write_file(verb.output, scene.text, {verb.robot, verb.loops});
     for (const Diagnostic& remark : imported.remarks)
         std::cerr << say("{}:{}:{}: warning: {}\n", verb.robot, remark.place.line, remark.place.column,
                          escaped(remark.message, 300));
@@ -82,7 +90,10 @@ int run(const ImportVerb& verb) {
 
 ImportedRobot imported_robot(const std::string& file, ImportOptions options) {
     Robot robot = read_robot(file, options.others);
-    if (!options.loops.empty()) close_loops(robot, options.loops);
+    if (!options.loops.empty()) {
+        close_loops(robot, options.loops);
+        options.scene.guesses = true;
+    }
     options.scene.source = std::filesystem::path(file).filename().string();
     const int rounded = rounded_right_angles(robot, options.right_angles);
     ImportedRobot result{.scene = robot_scene(robot, options.scene),
@@ -90,7 +101,10 @@ ImportedRobot imported_robot(const std::string& file, ImportOptions options) {
                          .rounded = rounded,
                          .made_exact = options.right_angles,
                          .has_drives = options.scene.drives};
-    if (options.strict) refuse_changes(file, result.scene.dropped);
+    if (options.strict) {
+        refuse_changes(file, result.scene.dropped);
+        refuse_versions(file, robot.remarks, options.scene.drives);
+    }
     if (rounded > 0 && !options.right_angles)
         result.scene.notes.push_back(
             say("{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
@@ -150,6 +164,11 @@ void add_import(CLI::App& app, Chosen& chosen) {
     verb.add_flag("--stops", options->scene.stops, say("contacts at the limits of the joints"));
     verb.add_flag("--drives", options->scene.drives,
                   say("an input for the torque or force of each joint, or for each motor of the file"));
+    verb.add_option("--keyframe", options->scene.keyframe,
+                    say("the state of an MJCF file in which the scene starts"))
+        .type_name(values::name);
+    verb.add_flag("--mend-inertia", options->scene.mend_inertia,
+                  say("an inertia that no body has becomes the nearest possible"));
     verb.add_option("--loops", options->loops, say("a file of [[joint]]s between links, which close loops"))
         .type_name(values::file);
     verb.add_flag("--strict", options->strict,

@@ -8,6 +8,7 @@
 #include "base/language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -32,9 +33,22 @@ void add_speeds(Building& here) {
         });
 }
 
+/// The multiplier of a row that holds in every position is none: what bears the load is another constraint, or a
+/// place that is given.
+void refuse_left_out(const Building& here, const Tree& tree, const Expression& in) {
+    if (tree.kind == Tree::Kind::name &&
+        std::find(here.left_out.begin(), here.left_out.end(), tree.text) != here.left_out.end())
+        throw SceneMistake{{in.place(tree.offset),
+                            say("there is no {}: along this direction nothing can move, whatever the coordinates "
+                                "do, so that the row has no multiplier; eval --reactions has the forces there",
+                                in_quotes(tree.text))}};
+    for (const TreePtr& arg : tree.args) refuse_left_out(here, *arg, in);
+}
+
 void add_outputs(Building& here) {
     for (const Output& o : here.scene.outputs)
         here.attempt([&] {
+            refuse_left_out(here, *o.value.tree, o.value);
             SourceScope source(*here.m.z, "output " + o.name.text);
             here.m.outputs.push_back({o.name.text, here.m.z->name(here.translator.scalar(o.value))});
         });

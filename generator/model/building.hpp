@@ -37,6 +37,7 @@ struct Building {
     Places places;
     std::optional<ParameterValues> values;  ///< set as soon as the parameters are known
     std::vector<Diagnostic> mistakes;
+    std::vector<std::string> left_out;   ///< multipliers of rows that hold in every position
     bool on_sheets = false;              ///< whether roots of squares are taken on the sheet of the initial state
     std::shared_ptr<RootSheets> sheets;  ///< set in that case, as soon as parameters and coordinates are known
 };

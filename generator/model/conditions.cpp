@@ -86,16 +86,17 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
     SourceScope source(*here.m.z, "rolling " + rule.name.text);
     Intermediates& z = *here.m.z;
     const Vector3 c = here.places.along(rule.contact, rule.axes);
+    const std::string centre = here.places.centre_of(rule.body.text), ground = here.places.centre_of(rule.on.text);
     const auto turning = [&](const std::string& body, const Vector3& arm) {
         const Orientation& o = here.places.orientation(body);
         return cross(o.to_inertial(o.angular_velocity(), z), arm, z);
     };
-    Vector3 slip = add(here.places.velocity(rule.body.text), turning(rule.body.text, c), z);
+    Vector3 slip = add(here.places.velocity(centre), turning(rule.body.text, c), z);
     if (rule.on.text != "N") {
-        const Vector3 touching = add(here.places.position(rule.body.text), c, z);
-        const Vector3 arm = add(touching, scale(-1, here.places.position(rule.on.text), z), z);
-        const Vector3 ground = add(here.places.velocity(rule.on.text), turning(rule.on.text, arm), z);
-        slip = add(slip, scale(-1, ground, z), z);
+        const Vector3 touching = add(here.places.position(centre), c, z);
+        const Vector3 arm = add(touching, scale(-1, here.places.position(ground), z), z);
+        const Vector3 moving = add(here.places.velocity(ground), turning(rule.on.text, arm), z);
+        slip = add(slip, scale(-1, moving, z), z);
     }
     const std::array<Name, 3> multipliers = multipliers_of(rule);
     std::vector<GiNaC::symbol> clock{here.m.t};
@@ -109,7 +110,7 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
     for (const std::string& body : {rule.body.text, rule.on.text})
         for (int k = 0; k < 3; ++k)
             if (body != "N")
-                drifts = drifts || by_itself(here.places.position(body)) ||
+                drifts = drifts || by_itself(here.places.position_of_body(body)) ||
                          by_itself(here.places.orientation(body).axis(k));
     bool any = false;
     for (int k = 0; k < 3; ++k) {
@@ -124,6 +125,7 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
                          "coordinates' rates",
                          rule.name.text, "xyz"[k])}};
             here.translator.know(multipliers[k].text, 0);
+            here.left_out.push_back(multipliers[k].text);
             continue;
         }
         any = true;
@@ -181,8 +183,26 @@ void need_closed(Building& here, const Joint& joint, const ClosingRow& row, int 
              joint.name.text, k, moves ? say("as time goes on") : say("by {:.6g}", gap))}};
 }
 
+// Axes that coincide, or never do: where no coordinate turns them against each other.
+void align(Building& here, const Joint& joint, int index, std::size_t rows) {
+    Mechanism::Alignment alignment{.joint = index, .place = joint.name.place, .rows = rows, .between = {}};
+    for (const ex& product : coinciding_axes(joint, here.places)) {
+        if (here.m.z->depends(product, here.m.moving())) {
+            alignment.between.push_back(product);
+        } else if (!(here.places.numbers_at_start({product})[0] > 0)) {
+            throw SceneMistake{
+                {joint.name.place,
+                 say("joint '{}' cannot close: its axes in the child are turned against those in the parent, by "
+                     "half a turn or a third of one, and no coordinate can change that",
+                     joint.name.text)}};
+        }
+    }
+    if (!alignment.between.empty()) here.m.alignments.push_back(std::move(alignment));
+}
+
 void close(Building& here, const Joint& joint, int index) {
     SourceScope source(*here.m.z, "joint " + joint.name.text);
+    const std::size_t before = here.m.constraints.size();
     int k = 0;
     for (const ClosingRow& row : closing_rows(joint, here.places)) {
         const std::string name = fmt::format("{}_{}", joint.name.text, ++k), multiplier = "lambda_" + name;
@@ -193,6 +213,7 @@ void close(Building& here, const Joint& joint, int index) {
             if (row.holonomic) need_closed(here, joint, row, k);
             here.m.identities.push_back(name);
             here.translator.know(multiplier, 0);
+            here.left_out.push_back(multiplier);
             continue;
         }
         here.m.constraints.push_back(
@@ -205,8 +226,10 @@ void close(Building& here, const Joint& joint, int index) {
                            .at = joint.name.place},
                           here.m));
         here.m.constraints.back().joint = index;
+        here.m.constraints.back().turns = row.holonomic && row.lengths.empty();
         here.translator.know(multiplier, here.m.constraints.back().multiplier);
     }
+    align(here, joint, index, here.m.constraints.size() - before);
 }
 
 // gap(q,t) ≥ 0

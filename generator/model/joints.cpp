@@ -173,7 +173,7 @@ JointArc arc_of(const Joint& joint, Places& places) {
 int point_by(const Joint& joint, Places& places) {
     const bool forwards = *joint.places_child;
     const Joint::Side &from = forwards ? joint.parent : joint.child, &to = forwards ? joint.child : joint.parent;
-    const auto body_point = [&](const std::string& body) { return body == "N" ? 0 : places.point(body); };
+    const auto body_point = [&](const std::string& body) { return places.point(places.centre_of(body)); };
     int point = places.step(body_point(from.body.text), places.orientation(from.body.text).frame,
                             places.vector(from.point));
     const Vector3 shift = scale(forwards ? 1 : -1, motion_of(joint, places).shift, places.z());
@@ -240,6 +240,33 @@ std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
     if (turns.size() == 2)
         rows.push_back({true, z.name(-dot(J.axis(turns[0]->along - 'x'), K.axis(turns[1]->along - 'x'), z))});
     return rows;
+}
+
+std::vector<ex> coinciding_axes(const Joint& joint, Places& places) {
+    const JointMoves& type = moves_of(joint.type);
+    std::vector<Vector3> axes;
+    const Move* turn = nullptr;
+    for (const Move& move : type.moves) {
+        if (move.kind == Move::Kind::turn_in_space || (move.kind == Move::Kind::turn && turn != nullptr))
+            return {};
+        if (move.kind == Move::Kind::turn) turn = &move;
+    }
+    if (turn != nullptr)
+        axes.push_back(direction_of(*turn, joint, places));
+    else
+        axes = {unit(0), unit(1), unit(2)};
+    const Orientation J = axes_of(joint.parent, places), K = axes_of(joint.child, places);
+    // Not named: the equations have no use for these products, and their intermediate symbols keep their numbers.
+    const auto component = [](const Orientation& frame, const Vector3& a, std::size_t i) {
+        return a[0] * frame.axis(0)[i] + a[1] * frame.axis(1)[i] + a[2] * frame.axis(2)[i];
+    };
+    std::vector<ex> result;
+    for (const Vector3& a : axes) {
+        ex product = 0;
+        for (std::size_t i = 0; i < 3; ++i) product += component(J, a, i) * component(K, a, i);
+        if (!product.is_equal(1)) result.push_back(product);
+    }
+    return result;
 }
 
 }  // namespace alembert

@@ -16,6 +16,8 @@
 ///     rotation about e:      f = a_K·(e × a)_J,     f' = (ω_C − ω_P)·e  where f = 0,
 /// where a is an axis perpendicular to e. For a joint with one free turn, a is its axis and e runs over two
 /// directions perpendicular to it; if no turn is free, the axis a of each of x, y, z is the one after the next.
+/// Rows of the second kind hold too where the axes are antiparallel, and without a free turn where they have
+/// changed places; the products of axes that are to coincide (coinciding_axes) tell the roots apart.
 /// For a universal joint f = −x_J·y_K. A screw's shift and turn obey
 ///     (relative velocity)·a − pitch (ω_C − ω_P)·a = 0,
 /// a condition on velocities, because a turn counted over many revolutions is no function of the positions of the
@@ -42,5 +44,10 @@ struct ClosingRow {
 
 /// The rows that close the loop, as many as locked_directions(joint.type).
 std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places);
+
+/// The products a_J·a_K of the axes that the rows let coincide: one where one turn is free, three where none is.
+/// Where the rows hold, all are 1; or −1 or 0 where the child is turned. None for other joints, and without those
+/// that are 1 in every position.
+std::vector<GiNaC::ex> coinciding_axes(const Joint& joint, Places& places);
 
 }  // namespace alembert

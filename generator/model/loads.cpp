@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/language/say.hpp"
 #include "model/building.hpp"
@@ -17,8 +18,7 @@ using Kind = Origin::Kind;
 namespace {
 
 // Adds ½ m v², and −m g·r.
-void add_translation(Building& here, const Origin& origin, const ex& mass) {
-    const std::string& point = origin.name;
+void add_translation(Building& here, const Origin& origin, const std::string& point, const ex& mass) {
     const Vector3 v = here.places.velocity(point);
     here.m.kinetic.push_back({origin, here.m.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
     here.m.masses.push_back({.origin = origin,
@@ -60,8 +60,9 @@ void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
         const auto from_about = [&](const Vector3& centre, const Vector3& about) {
             return add(centre, scale(-1, about, *here.m.z), *here.m.z);
         };
-        const Vector3 r = from_about(here.places.position(b.name.text), here.places.position(b.about->text));
-        const Vector3 d = from_about(here.places.velocity(b.name.text), here.places.velocity(b.about->text));
+        const std::string& centre = b.point().text;
+        const Vector3 r = from_about(here.places.position(centre), here.places.position(b.about->text));
+        const Vector3 d = from_about(here.places.velocity(centre), here.places.velocity(b.about->text));
         const Vector3 turning = cross(orientation.to_inertial(w, *here.m.z), r, *here.m.z);
         for (int k = 0; k < 3; ++k)
             if (vanishes(d[k] - turning[k], here.m) == false)
@@ -79,12 +80,12 @@ void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
 }
 
 void add_particle(Building& here, const Particle& p, const Origin& origin) {
-    add_translation(here, origin, here.translator.scalar(p.mass));
+    add_translation(here, origin, p.name.text, here.translator.scalar(p.mass));
 }
 
 void add_body(Building& here, const Body& b, const Origin& origin) {
     const ex mass = here.translator.scalar(b.mass);
-    add_translation(here, origin, mass);
+    add_translation(here, origin, b.point().text, mass);
     add_rotation(here, b, mass, origin.index);
 }
 
@@ -172,7 +173,7 @@ void add_pairs(Load& load, const Vector3& velocity, const Vector3& force, int si
 /// of it.
 std::string point_of(Building& here, const Force& f) {
     for (const Body& body : here.scene.bodies)
-        if (body.name.text == f.on->text) return f.on->text;
+        if (body.name.text == f.on->text) return body.point().text;
     for (const Point& point : here.scene.points)
         if (point.name.text == f.at.text && point.position.from.text != "O") return point.position.from.text;
     throw SceneMistake{
@@ -189,25 +190,33 @@ Vector3 velocity_of_body_at(Building& here, const Force& f) {
     return add(here.places.velocity(fixed), cross(omega, between(here, fixed, f.at.text), *here.m.z), *here.m.z);
 }
 
-/// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or body.
+/// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or body. The
+/// axes of N are those of no body that turns: a point at a constant distance along them runs through the body.
 bool is_fixed_in_a_body(Building& here, const std::string& point) {
     std::vector<std::string> places, axes;
+    std::set<std::string> turning;  // places beside which N does not count
+    for (const Body& b : here.scene.bodies)
+        if (b.frame.text != "N") turning.insert(b.point().text);
     for (const Point& p : here.scene.points)
         if (p.name.text == point) {  // nearly always it keeps its place in the axes in which it is given
             places.push_back(p.position.from.text);
             axes.push_back(p.position.axes.text);
+        } else {
+            turning.insert(p.name.text);
         }
     places.emplace_back("O");
     axes.emplace_back("N");
     for (const Particle& p : here.scene.particles) places.push_back(p.name.text);
     for (const Body& b : here.scene.bodies) {
-        places.push_back(b.name.text);
+        places.push_back(b.point().text);
         axes.push_back(b.frame.text);
     }
     for (const Frame& f : here.scene.frames) axes.push_back(f.name.text);
     return std::any_of(places.begin(), places.end(), [&](const std::string& place) {
         const Vector3 away = between(here, place, point);
+        const bool is_there = away[0].is_zero() && away[1].is_zero() && away[2].is_zero();
         return std::any_of(axes.begin(), axes.end(), [&](const std::string& frame) {
+            if (frame == "N" && turning.contains(place) && !is_there) return false;
             const Orientation& o = here.places.orientation(frame);
             std::vector<ex> components;
             for (int k = 0; k < 3; ++k) components.push_back(dot(away, o.axis(k), *here.m.z));

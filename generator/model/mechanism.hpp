@@ -150,6 +150,7 @@ struct Mechanism {
         GiNaC::symbol multiplier;           ///< λ: M q'' = F + Σ row λ
         Place place;
         std::optional<int> joint = {};  ///< position in `joints` of the joint whose loop the row closes
+        bool turns = false;             ///< of such a row: whether it is the cosine of an angle between axes
         /// Position in `rollings` of the rolling condition to which the row belongs.
         std::optional<int> rolling = {};
         /// The constraints of the scene in which the square of this one stands, for people; empty for those that
@@ -163,6 +164,19 @@ struct Mechanism {
         /// that change with the pose, so that those in `constraints` alone lose rank at some poses where all of
         /// them together do not (analysis/audit/tied_rows.hpp).
         std::optional<int> tie = {};
+        /// How much of the row at most is no combination of the others, divided by the size of such rows, where
+        /// that is so little that the row counts as one (analysis/state/nearly_redundant.hpp).
+        std::optional<double> nearly = {};
+    };
+
+    /// What tells the motions of a joint that closes a loop from other roots of its rows, which hold too where the
+    /// child is turned by half a turn, or, if no turn is free, by a third of one about the diagonal of the axes.
+    struct Alignment {
+        int joint;         ///< position in `joints`
+        Place place;       ///< of the joint's name
+        std::size_t rows;  ///< how many of `constraints` close the joint's loop
+        std::vector<GiNaC::ex>
+            between;  ///< the products of axes that coincide, each 1 where the rows hold as meant
     };
 
     /// gap(q,t) ≥ 0: the contact is open where the gap is positive, and a constraint with λ ≥ 0 where it is zero.
@@ -219,6 +233,7 @@ struct Mechanism {
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
+    std::vector<Alignment> alignments;    ///< of joints that close loops
     std::vector<std::string> identities;  ///< rows of joints that hold in every position of the bodies
     /// A rolling condition, for the choice of the axes of its rows (analysis/state/redundancy.hpp).
     struct Rolling {

@@ -122,8 +122,15 @@ std::vector<double> Places::numbers_at_start(const std::vector<ex>& values) cons
 
 const Joint* Places::joint_of(const std::string& name) const {
     for (const Body& body : scene_.bodies)
-        if (body.name.text == name) return body.joint ? &scene_.joints[*body.joint] : nullptr;
+        if (body.point().text == name) return body.joint ? &scene_.joints[*body.joint] : nullptr;
     return nullptr;
+}
+
+std::string Places::centre_of(const std::string& body) const {
+    if (body == "N") return "O";
+    for (const Body& b : scene_.bodies)
+        if (b.name.text == body) return b.point().text;
+    return body;
 }
 
 Vector3 Places::unit_axis(const Rotation& r) {
@@ -153,14 +160,14 @@ const Position* Places::find(const std::string& name) const {
     for (const Particle& p : scene_.particles)
         if (p.name.text == name) return &p.position;
     for (const Body& b : scene_.bodies)
-        if (b.name.text == name) return &b.position;
+        if (b.point().text == name) return &b.position;
     return nullptr;
 }
 
 std::string Places::base_of_point(const std::string& name) const {
     const Joint* const joint = joint_of(name);
     const Position* const where = joint == nullptr ? find(name) : nullptr;
-    const std::string base = joint != nullptr   ? body_before(*joint).text
+    const std::string base = joint != nullptr   ? centre_of(body_before(*joint).text)
                              : where != nullptr ? where->from.text
                                                 : "";
     return base == "N" || base == "O" ? "" : base;
@@ -185,7 +192,8 @@ Vector3 Places::position(const std::string& name) {
 
 std::string Places::frame_of(const std::string& name) const {
     if (name == "O") return "N";
-    if (joint_of(name) != nullptr) return name;
+    for (const Body& b : scene_.bodies)
+        if (b.point().text == name && b.joint) return b.name.text;
     const Position& place = *find(name);
     const bool is_there = std::all_of(place.offset.component.begin(), place.offset.component.end(),
                                       [](const Expression& e) { return e.text == "0"; });

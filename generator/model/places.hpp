@@ -45,7 +45,9 @@ public:
     /// itself.
     std::string frame_of(const std::string& point) const;
     /// The position of the mass centre; of N, the origin.
-    Vector3 position_of_body(const std::string& body) { return position(body == "N" ? "O" : body); }
+    Vector3 position_of_body(const std::string& body) { return position(centre_of(body)); }
+    /// The name of the mass centre among the points; of N, of a particle and of a point their own.
+    std::string centre_of(const std::string& body) const;
 
     GiNaC::ex value(const Expression& e) { return m_.z->name(translator_.scalar(e)); }
     GiNaC::ex value(const Name& name);

@@ -163,6 +163,8 @@ enum class Group : unsigned char {
     tangent,         ///< derivatives along a direction (tangent.hpp)
     event_impulse,   ///< the impulses of each event that has some, n for each
     function,        ///< results of functions of their own (named_function.hpp)
+    alignment,       ///< products of axes that coincide, each 1 (Mechanism::Alignment); Root::constraint is its
+                     ///< position
 };
 
 /// A value that the program computes for its users.

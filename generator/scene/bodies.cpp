@@ -222,6 +222,7 @@ void read_body(Table table, Scene& scene) {
     body.has_position = table.has("at") || table.has("position");
     body.inertia = is_from_shape(table) ? inertia_from_shape(table, body.mass) : read_inertia(table);
     body.about = table.name("about");
+    if (auto centre = table.name("centre")) body.centre = std::move(*centre);
     if (body.about && !table.has("inertia"))
         table.complain("about", say("{} says about which point the inertia is, but there is no 'inertia'",
                                     table.what("about")));

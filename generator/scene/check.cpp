@@ -162,6 +162,7 @@ private:
             quantities_.check_frame(frame.parent);
             for (const Rotation& rotation : frame.rotations) {
                 quantities_.check(rotation.angle, angle);
+                quantities_.doubt_rotation(rotation.angle);
                 check(rotation.axis, axis);
             }
         }
@@ -176,6 +177,7 @@ private:
                 check(side->point, constant);
                 for (const Rotation& rotation : side->rotate) {
                     quantities_.check(rotation.angle, constant);
+                    quantities_.doubt_rotation(rotation.angle);
                     check(rotation.axis, {.subject = say("an axis")});
                 }
             }
@@ -418,11 +420,30 @@ private:
                                      first->second.line));
     }
 
+    /// A table of the motion has columns of these names already; that of x = "x" is the same.
+    void check_column(const Output& of) {
+        const Name& output = of.name;
+        if (of.value.tree && of.value.tree->kind == Tree::Kind::name && of.value.tree->text == output.text) return;
+        const Declared* const declared = NameSpaces::find(names_.values, output.text);
+        using Kind = Declared::Kind;
+        const bool is_column = declared && (declared->kind == Kind::coordinate || declared->kind == Kind::speed ||
+                                            declared->kind == Kind::multiplier);
+        if (is_column || output.text == "t" || output.text == "energy")
+            complain(output.place,
+                     say("the output {0} cannot have this name: tables of the motion have a column {0} "
+                         "already, that of {1}",
+                         in_quotes(output.text),
+                         is_column            ? described(declared->kind)
+                         : output.text == "t" ? say("the time")
+                                              : say("the energy")));
+    }
+
     void check_runs() {
         Legal anything{
             .subject = say("an output"), .order = 2, .input_order = 2, .time = true, .multipliers = true};
         for (const Output& output : scene_.outputs) {
             need_name(output.name, diagnostics_);
+            check_column(output);
             quantities_.check(output.value, anything);
         }
         std::unordered_map<std::string, Place> events;

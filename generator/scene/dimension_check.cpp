@@ -75,7 +75,10 @@ private:
         for (const UnilateralRule& u : scene_.unilateral) dimensions_.of(u.gap);
         for (const EventRule& e : scene_.events) dimensions_.of(e.when);
         for (const Output& o : scene_.outputs) dimensions_.of(o.value);
-        for (const FrictionRule& f : scene_.frictions) dimensions_.of(f.slip);
+        for (const FrictionRule& f : scene_.frictions) dimensions_.of(f.slip), dimensions_.of(f.normal);
+        for (const Speed& u : scene_.speeds) dimensions_.of(u.form);
+        for (const Link& s : scene_.springs) dimensions_.of(s.along);
+        for (const Link& d : scene_.dampers) dimensions_.of(d.along);
     }
 
     void check_meanings() {

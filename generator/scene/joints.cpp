@@ -110,6 +110,40 @@ void read_armatures(const Table& table, const Joint& joint, Scene& scene) {
     }
 }
 
+/// x, y or z of a shift, by the name: "y", "cart_y".
+char letter_of(const std::string& name) {
+    const bool has_letter = !name.empty() && name.back() >= 'x' && name.back() <= 'z' &&
+                            (name.size() == 1 || name[name.size() - 2] == '_');
+    return has_letter ? name.back() : 0;
+}
+
+/// A motion beside coordinates stands where the file has it, which may not be what its name says.
+void check_order(const Table& motion, const Joint& joint) {
+    std::size_t k = 0;
+    for (const Move& move : moves_of(joint.type).moves) {
+        if (move.kind != Move::Kind::shift || move.along == 'a' || k >= joint.coordinates.size()) break;
+        const Name& name = joint.coordinates[k++];
+        const char letter = letter_of(name.text);
+        if (letter == 0 || letter == move.along) continue;
+        return motion.reading().complain(
+            name.place,
+            say("coordinates and prescribed motions of joint {} count in the order of the file, so that "
+                "{} is {} here; write the prescribed one in 'coordinates' too, at its place: {} = 0",
+                in_quotes(joint.name.text), in_quotes(name.text), std::string(1, move.along),
+                motion.entries().empty() ? "q" : motion.entries().front().key));
+    }
+    for (; k < joint.coordinates.size(); ++k)
+        if (const char letter = letter_of(joint.coordinates[k].text);
+            letter != 0 && moves_of(joint.type).has(Move::Kind::shift) && joint.type != Joint::Type::cylindrical)
+            return motion.reading().complain(
+                joint.coordinates[k].place,
+                say("coordinates and prescribed motions of joint {} count in the order of the file, so that {} is "
+                    "an "
+                    "angle here; write the prescribed one in 'coordinates' too, at its place: {} = 0",
+                    in_quotes(joint.name.text), in_quotes(joint.coordinates[k].text),
+                    motion.entries().empty() ? "q" : motion.entries().front().key));
+}
+
 /// Reads coordinates, prescribed motions, drives and rotors. A motion takes the place of the coordinate of its
 /// name, otherwise its place in the order of the file.
 void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
@@ -149,6 +183,7 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
         }
     std::sort(joint.coordinates.begin(), joint.coordinates.end(),
               [](const Name& a, const Name& b) { return a.place < b.place; });
+    if (coordinates && motion) check_order(*motion, joint);
     if (drive) read_forces(*drive, scene);
     if (armature) read_armatures(*armature, joint, scene);
 }

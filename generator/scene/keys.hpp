@@ -54,7 +54,7 @@ inline constexpr TableKeys table_keys[] = {
     {"body",
      TableKeys::Shape::list,
      {"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about", "shape", "size", "radius",
-      "length", "height"}},
+      "length", "height", "centre"}},
     {"body.inertia", TableKeys::Shape::inner, {"xx", "yy", "zz", "xy", "yz", "zx"}},
     {"body.shape",
      TableKeys::Shape::inner,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/meanings.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "base/language/say.hpp"
@@ -58,14 +59,26 @@ private:
     void add_loads() {
         for (const Force& f : scene_.forces) add(f.vector, force, say("a force"));
         for (const Torque& t : scene_.torques) add(t.vector, energy, say("a torque"));
+        for (const Impulse& i : scene_.impulses)
+            add(i.vector, multiplied(force, {{"s", 1}}, 1), say("an impulse"));
         for (const Link& s : scene_.springs) {
-            if (!s.between) continue;
-            add(s.constant, multiplied(force, metre, -1), say("a stiffness"));
-            add(s.length, metre, say("a length"));
+            const std::optional<Dimension> d = extension_of(s);
+            if (!d) continue;
+            add(s.constant, multiplied(energy, *d, -2), say("a stiffness"));
+            add(s.length, *d, say("a length"));
         }
-        for (const Link& d : scene_.dampers)
-            if (d.between) add(d.constant, {{"kg", 1}, {"s", -1}}, say("a damping"));
-        for (const FrictionRule& f : scene_.frictions) add(f.coefficient, {}, say("a coefficient of friction"));
+        for (const Link& damper : scene_.dampers)
+            if (const std::optional<Dimension> d = extension_of(damper))
+                add(damper.constant, multiplied(over_time(energy, -1), *d, -2), say("a damping"));
+        for (const FrictionRule& f : scene_.frictions) {
+            add(f.coefficient, {}, say("a coefficient of friction"));
+            add(f.resting, {}, say("a coefficient of friction"));
+            if (const std::optional<Dimension> slip = dimensions_.of(f.slip);
+                slip && has_masses() && is_told(*slip, f.slip))
+                add(f.normal, multiplied(over_time(energy), *slip, -1), say("a normal force"));
+        }
+        for (const RollingRule& r : scene_.rolling)
+            add(r.contact, metre, say("the contact of {}", in_quotes(r.name.text)));
         if (!has_masses()) return;
         for (const GeneralizedForce& g : scene_.generalized_forces)
             for (const Coordinate& q : scene_.coordinates)
@@ -85,6 +98,24 @@ private:
         add(scene_.kinetic, whole, say("a kinetic energy"));
         add(scene_.potential, whole, say("a potential energy"));
         add(scene_.rayleigh, over_time(whole), say("Rayleigh's function"));
+    }
+
+    /// What a spring or damper is stretched by; nothing where its units do not tell.
+    std::optional<Dimension> extension_of(const Link& link) {
+        if (link.between) return metre;
+        if (!has_masses()) return std::nullopt;
+        std::optional<Dimension> d = dimensions_.of(link.along);
+        return d && is_told(*d, link.along) ? d : std::nullopt;
+    }
+
+    /// A number may be an angle, or a length of which a radius of 1 is not written: only names and their sums
+    /// tell.
+    static bool is_told(const Dimension& dimension, const Expression& e) {
+        return (dimension != Dimension{} && dimension != Dimension{{"s", -1}}) || !has_calls(*e.tree);
+    }
+    static bool has_calls(const Tree& tree) {
+        return tree.kind == Tree::Kind::call ||
+               std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return has_calls(*arg); });
     }
 
     bool has_masses() const { return !scene_.particles.empty() || !scene_.bodies.empty(); }

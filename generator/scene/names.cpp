@@ -162,7 +162,11 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     add(bodies, scene.bodies, DeclaredAs::body);
     refuse(bodies);
     frames.insert(frames.end(), bodies.begin(), bodies.end());
-    points.insert(points.end(), bodies.begin(), bodies.end());
+    for (Declaration& body : bodies) {
+        const Name& centre = scene.bodies[body.index].point();
+        if (&centre == body.name || check(centre, DeclaredAs::point, diagnostics))
+            points.push_back({&centre, body.kind, body.index});
+    }
     return {enter(values, diagnostics), enter(frames, diagnostics), enter(points, diagnostics), scene.functions};
 }
 

@@ -63,15 +63,26 @@ bool Quantities::is_used(Declared::Kind kind, const std::string& name) const {
     return (kind == Declared::Kind::point ? used_points_ : used_values_).contains(name);
 }
 
+constexpr double whole_turn = 6.2832;
+
 /// The sine of 30 is hardly that of 30 rad.
 void Quantities::doubt_angle(const Context& context, const Tree& call) {
     const Tree& arg = *call.args[0];
     const Tree& number = arg.kind == Kind::negate ? *arg.args[0] : arg;
-    constexpr double whole_turn = 6.2832;
     if (number.kind != Kind::number || value_of_digits(number.text) < whole_turn) return;
     warnings_.push_back({context.expression.place(arg.offset),
                          say("{0}({1}) takes {1} as radians; an angle in degrees is written {0}({1} deg)",
                              call.text, (arg.kind == Kind::negate ? "-" : "") + number.text),
+                         Severity::warning, "suspicious_number"});
+}
+
+void Quantities::doubt_rotation(const Expression& angle) {
+    if (!angle.tree) return;
+    const Tree& number = angle.tree->kind == Kind::negate ? *angle.tree->args[0] : *angle.tree;
+    if (number.kind != Kind::number || value_of_digits(number.text) < whole_turn) return;
+    warnings_.push_back({angle.place(),
+                         say("a rotation takes {0} as radians; an angle in degrees is written {1}", angle.text,
+                             in_quotes(angle.text + " deg")),
                          Severity::warning, "suspicious_number"});
 }
 

@@ -49,6 +49,9 @@ public:
     /// Reports unknown names, illegal contents, and vectors where a number is expected.
     void check(const Expression& expression, const Legal& legal);
 
+    /// Warns of a plain number beyond a turn: radians that are hardly meant.
+    void doubt_rotation(const Expression& angle);
+
     void check_point(const Name& name) { check_place(name.text, name.place, "point"); }
     void check_frame(const Name& name) { check_place(name.text, name.place, "frame"); }
 

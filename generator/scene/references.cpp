@@ -50,7 +50,7 @@ public:
         add(scene.bodies, DeclaredAs::body, frames_);
         add(scene.points, DeclaredAs::point, points_);
         add(scene.particles, DeclaredAs::particle, points_);
-        add(scene.bodies, DeclaredAs::body, points_);
+        add_centres();
         connect();
     }
 
@@ -64,7 +64,16 @@ private:
     const Scene& scene_;
     std::vector<Node> nodes_;
     Index values_, frames_, points_;
+    Index centres_;  ///< the mass centres, by body
     References references_;
+
+    void add_centres() {
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            points_.emplace(scene_.bodies[i].point().text, nodes_.size());
+            centres_.emplace(scene_.bodies[i].name.text, nodes_.size());
+            nodes_.push_back({DeclaredAs::body, i, &scene_.bodies[i].point()});
+        }
+    }
 
     template <typename Item>
     void add(const std::vector<Item>& items, DeclaredAs kind, Index& index) {
@@ -103,7 +112,7 @@ private:
         for (const Body& body : scene_.bodies) {
             Node& node = nodes_[n++];
             if (body.joint)
-                look(node, scene_.joints[*body.joint], points_);
+                look(node, scene_.joints[*body.joint], centres_);
             else
                 look(node, body.position);
         }

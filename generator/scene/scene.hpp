@@ -141,6 +141,9 @@ struct Body {
     std::optional<Name> about;
     bool has_position = true;          ///< whether the scene gives 'at' or 'position'
     std::optional<std::size_t> joint;  ///< the joint that places it; its frame then has the body's name
+    Name centre = {};                  ///< the name of its mass centre among the points, if not that of the body
+
+    const Name& point() const { return centre.text.empty() ? name : centre; }
 };
 
 /// Holds two bodies together. `rotate` gives the joint's axes in each body; the two sets of axes coincide when all

@@ -64,6 +64,11 @@ std::vector<Expression> corners_of_wedge(const std::vector<Expression>& legs, Pl
     return corners;
 }
 
+/// Whether it is a number below zero as written; a parameter's value is known later.
+bool is_negative(const Expression& e) {
+    return e.tree && e.tree->kind == Tree::Kind::negate && e.tree->args[0]->kind == Tree::Kind::number;
+}
+
 /// The sizes that stand after `key`, the row's own or that of shape = "box".
 std::optional<std::vector<Expression>> read_sizes(const Table& table, const SolidRow& row, std::string_view key) {
     const Entry& entry = *table.find(key);
@@ -86,6 +91,12 @@ std::optional<std::vector<Expression>> read_sizes(const Table& table, const Soli
         } else {
             sizes.push_back(read_expression(reading, *list->get(k), say("a size")));
         }
+    if (reading.diagnostics.size() > before) return {};
+    const bool are_corners = row.key == "polygon" || row.key == "wedge";
+    for (const Expression& size : sizes)
+        if (!are_corners && is_negative(size) && (row.key != "cone" || &size == &sizes.front()))
+            table.complain(
+                key, say("a size of {} is {}; expected more than 0", in_quotes(std::string(row.key)), size.text));
     if (reading.diagnostics.size() > before) return {};
     return row.key == "wedge" ? corners_of_wedge(sizes, place_of(*entry.node), reading) : std::move(sizes);
 }

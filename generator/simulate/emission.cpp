@@ -151,6 +151,7 @@ std::vector<SourceFile> files_of(const Emission& e) {
 Emission emission(Scene scene, const EmissionOptions& options) {
     if (options.standalone && options.language == CodeLanguage::javascript)
         throw ModelError(say("a main program beside the equations is in C++ or C; leave out --standalone"));
+    for (const std::string& place : options.frames) check_place(scene, place);
     for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     e.choice = lowered(e, options.fold);

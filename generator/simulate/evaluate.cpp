@@ -19,6 +19,7 @@
 #include "program/lower/robot_functions.hpp"
 #include "program/without_rounding.hpp"
 #include "scene/text.hpp"
+#include "simulate/given_inputs.hpp"
 #include "simulate/held_state.hpp"
 #include "simulate/sides.hpp"
 
@@ -155,13 +156,14 @@ void add_reactions(Evaluation& e, const Program& program, const State<double>& s
 }  // namespace
 
 Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
+    const Overrides at = with_inputs_given(scene, options.at);
     Evaluation e{derived(std::move(scene), {.by = options.by,
                                             .use = Use::asked,
                                             .reactions = options.reactions,
-                                            .at = options.at,
+                                            .at = at,
                                             .coordinates = Coordinates::optional})};
-    Start start = start_of(e.mechanism, options.at);
-    e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), options.at);
+    Start start = start_of(e.mechanism, at);
+    e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), at);
     State<double> state = state_of(start, e.mechanism, e.equations);
     const Mechanism& m = e.mechanism;
     std::vector<int> closed;
@@ -209,7 +211,15 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     warn_of_outputs(e);
     if (options.matrices) {
         e.mass = matrix_at(m, "mass", start.state());
-        e.coriolis = matrix_at(m, "coriolis", start.state());
+        const auto norm = std::find_if(m.constraints.begin(), m.constraints.end(),
+                                       [](const Mechanism::Constraint& c) { return c.norm; });
+        if (norm == m.constraints.end())
+            e.coriolis = matrix_at(m, "coriolis", start.state());
+        else
+            e.no_coriolis =
+                say("there is no matrix C of its own: the quaternion of '{}' has four coordinates for "
+                    "three degrees of freedom",
+                    norm->name);
     }
     if (options.reactions) add_reactions(e, program, state, value);
     return e;

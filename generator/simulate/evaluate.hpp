@@ -51,10 +51,11 @@ struct Evaluation : Derived {
     /// M(q) and C(q, q') of M q'' + C q' + g = Q by Christoffel's symbols (program/lower/robot_functions.hpp), row
     /// by row; set if they were requested.
     std::vector<std::vector<double>> mass = {}, coriolis = {};
+    std::string no_coriolis = {};  ///< why there is no C
 };
 
 /// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is
-/// negative, and for matrices of a scene with quaternions; IntegrationError if the accelerations are not finite,
+/// negative; IntegrationError if the accelerations are not finite,
 /// with the reason in terms of the scene.
 Evaluation evaluate(Scene scene, const EvaluateOptions& options = {});
 

@@ -87,6 +87,15 @@ HeldState held_state(const Switched& s, State<double> state) {
                     "determinant of the equation for its normal force is {:.6g}, and not positive",
                     held.state.t, root.name, value[static_cast<std::size_t>(root.node)]),
                 held.state.t, held.state.q);
+    for (const Root& root : held.program.roots) {
+        const double normal = value[static_cast<std::size_t>(root.node)];
+        if (root.group == Group::normal && normal < 0 && std::abs(normal) > on_zero)
+            throw IntegrationError(say("the normal force of friction '{}' is {:.6g} at t = {:.15g}; give one that "
+                                       "is never negative, such "
+                                       "as max(0, …), or abs(…) where it acts on both sides",
+                                       root.name, normal, held.state.t),
+                                   held.state.t, held.state.q);
+    }
     const auto name = [&](std::size_t k, std::size_t i) {
         return names[static_cast<std::size_t>(s.frictions[k][i].friction)]->name;
     };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "base/language/say.hpp"
 #include "program/quotient_signs.hpp"
@@ -88,10 +89,19 @@ std::string text_of(const Program& p, int id, int depth = 0) {
 }  // namespace
 
 Program with_signs_told(Prepared& prepared, const Program& program) {
+    constexpr const char* sizes[] = {"abs", "sqrt", "norm", "^0.5", "1/2)"};
     std::vector<int> signs;
     Program made = with_quotient_signs(program, signs);
     std::set<std::string> arguments;
-    for (const int x : signs) arguments.insert(text_of(made, x));
+    // A spring on a line has such a quotient too, which nobody wrote.
+    std::string written, line;
+    for (std::istringstream lines(prepared.scene.text); std::getline(lines, line);)
+        written += line.substr(0, line.find('#')) + "\n";
+    const bool may_be_written = std::any_of(std::begin(sizes), std::end(sizes), [&](const char* size) {
+        return written.find(size) != std::string::npos;
+    });
+    for (const int x : signs)
+        if (may_be_written) arguments.insert(text_of(made, x));
     for (const std::string& x : arguments)
         prepared.warn(
             "quotient_of_size",

@@ -28,8 +28,9 @@ bool is_frame(const Scene& scene, const std::string& name) {
 
 /// The frame that turns with the point.
 std::string frame_of(const Scene& scene, const std::string& point) {
-    if (const auto body = found(scene.bodies, point); body != scene.bodies.end())
-        return body->joint ? body->name.text : body->frame.text;
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                   [&](const Body& one) { return one.point().text == point; });
+    if (body != scene.bodies.end()) return body->joint ? body->name.text : body->frame.text;
     if (is_frame(scene, point)) return point;
     if (const auto own = found(scene.points, point); own != scene.points.end()) return own->position.axes.text;
     const auto particle = found(scene.particles, point);

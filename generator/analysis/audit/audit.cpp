@@ -198,7 +198,8 @@ private:
     bool is_tied(int k) {
         if (!kept_) kept_ = with_tied_rows(without_constraints(m_, redundant_));
         return kept_
-            ->redundant[static_cast<std::size_t>(std::find(redundant_.begin(), redundant_.end(), k) -
+            ->redundant[m_.redundant.size() +
+                        static_cast<std::size_t>(std::find(redundant_.begin(), redundant_.end(), k) -
                                                  redundant_.begin())]
             .tie.has_value();
     }
@@ -369,6 +370,12 @@ private:
     }
 
     void remarks() {
+        for (const Mechanism::Constraint& c : m_.redundant)
+            if (c.nearly)
+                result_.notes.push_back(
+                    say("{}: follows from the others but for {:.2g} of its size, as rounded numbers leave it; the "
+                        "equations of motion leave it out",
+                        c.name, *c.nearly));
         for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
             AuditedConstraint& c = result_.constraints[k];
             const Mechanism::Constraint& given = m_.constraints[k];

@@ -164,10 +164,14 @@ Mechanism with_tied_rows(Mechanism m) {
     const Mechanism kept = with_sample_functions(m);
     Mechanism all = kept;
     std::vector<int> extra;
-    for (const Mechanism::Constraint& c : kept.redundant) {
+    std::vector<std::size_t> from;  // the position in `redundant` of each of these
+    for (std::size_t k = 0; k < kept.redundant.size(); ++k) {
+        if (kept.redundant[k].nearly) continue;
         extra.push_back(static_cast<int>(all.constraints.size()));
-        all.constraints.push_back(c);
+        from.push_back(k);
+        all.constraints.push_back(kept.redundant[k]);
     }
+    if (extra.empty()) return m;
     all.redundant.clear();
     const std::vector<State<double>> places = states_that_obey(kept, start_of(kept), places_looked_at);
     if (places.empty()) return m;
@@ -189,7 +193,7 @@ Mechanism with_tied_rows(Mechanism m) {
         if (!loses) continue;
         for (const int k : group.rows)
             (k < extra.front() ? m.constraints[static_cast<std::size_t>(k)]
-                               : m.redundant[static_cast<std::size_t>(k - extra.front())])
+                               : m.redundant[from[static_cast<std::size_t>(k - extra.front())]])
                 .tie = ties;
         ++ties;
     }

@@ -212,7 +212,7 @@ Scene with_rolling_released(Scene scene, const RollingRule& rule) {
     body.position = shifted;
     scene.particles.push_back({.name = {free_name(scene, "contact_of_" + rule.name.text), rule.name.place},
                                .mass = expression("0"),
-                               .position = {.from = body.name, .offset = rule.contact, .axes = rule.axes}});
+                               .position = {.from = body.point(), .offset = rule.contact, .axes = rule.axes}});
     return scene;
 }
 

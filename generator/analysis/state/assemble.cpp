@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/base/random.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
@@ -47,7 +48,7 @@ public:
     }
 
     std::vector<std::string> go(bool rates_must_obey) {
-        settle(Group::position, start_.q, q_free_, "");
+        settle_positions();
         if (!start_.speeds.empty()) {
             try {
                 solve_for_rates(true);
@@ -69,6 +70,92 @@ public:
     }
 
 private:
+    void settle_positions() {
+        const std::vector<double> given = start_.q;
+        const bool may_turn = !p_.nodes_of(Group::alignment).empty() && !q_free_.empty();
+        std::optional<IntegrationError> failed;
+        try {
+            solve(Group::position, start_.q, q_free_);
+        } catch (const IntegrationError& error) {
+            if (!may_turn) throw;
+            failed = error;
+        }
+        std::optional<std::string> turned;
+        if (!failed) turned = turned_joint(m_, p_, start_.state());
+        if (may_turn && (failed || turned) && !turn_back(given)) {
+            if (failed) throw IntegrationError(*failed);
+            throw IntegrationError(*turned, start_.t, start_.q);
+        }
+        if (!may_turn && turned) throw IntegrationError(*turned, start_.t, start_.q);
+        report(given, start_.q, q_free_, "");
+    }
+
+    /// Takes the pose nearest to the guesses in which no joint is turned, of those that are found from the guesses
+    /// and from places around them and around the turned pose, the same in every run. False if none is found.
+    bool turn_back(const std::vector<double>& given) {
+        constexpr int places = 16;
+        constexpr double reach = 0.1;
+        const std::vector<double> found = start_.q;
+        std::mt19937_64 random(5);
+        const UniformReal<> part(-1, 1);
+        const Eigen::Map<const Eigen::VectorXd> wanted(given.data(), m_.size());
+        std::optional<std::vector<double>> nearest;
+        double least = HUGE_VAL;
+        for (int k = 0; k < places; ++k) {
+            start_.q = k % 2 == 0 ? given : found;
+            for (const int i : q_free_) start_.q[i] += k * reach * part(random);
+            align();
+            if (turned_joint(m_, p_, start_.state())) continue;
+            try {
+                solve(Group::position, start_.q, q_free_);
+            } catch (const IntegrationError&) {
+                continue;
+            }
+            const double away = (Eigen::Map<const Eigen::VectorXd>(start_.q.data(), m_.size()) - wanted).norm();
+            if (!(away < least) || turned_joint(m_, p_, start_.state())) continue;
+            least = away;
+            nearest = start_.q;
+        }
+        if (nearest) start_.q = *nearest;
+        return nearest.has_value();
+    }
+
+    /// Guesses may lie nearer to a pose in which a joint is turned. The products of its axes are rows here too,
+    /// which no such pose obeys.
+    void align() {
+        constexpr double apart = 1e-5, longest = 0.5;  // of coordinates: for a difference, and in one step
+        const std::vector<int> positions = p_.nodes_of(Group::position), axes = p_.nodes_of(Group::alignment);
+        const auto m = static_cast<Eigen::Index>(positions.size()), a = static_cast<Eigen::Index>(axes.size()),
+                   n = static_cast<Eigen::Index>(q_free_.size());
+        const auto products = [&](const Start& at) {
+            const std::vector<double> value = interpret(p_, at.state());
+            Eigen::VectorXd result(a);
+            for (Eigen::Index k = 0; k < a; ++k) result[k] = value[axes[k]];
+            return result;
+        };
+        for (int round = 0; round < most_rounds; ++round) {
+            const std::vector<double> value = interpret(p_, start_.state());
+            Eigen::VectorXd f(m + a);
+            Eigen::MatrixXd J(m + a, n);
+            f.tail(a) = products(start_).array() - 1;
+            for (Eigen::Index k = 0; k < m; ++k) f[k] = value[positions[k]];
+            for (Eigen::Index j = 0; j < n; ++j) {
+                for (Eigen::Index k = 0; k < m; ++k) J(k, j) = value[rows_[k * m_.size() + q_free_[j]]];
+                Start more = start_, less = start_;
+                more.q[q_free_[j]] += apart;
+                less.q[q_free_[j]] -= apart;
+                const auto flat = [](double slope) {
+                    return std::abs(slope) < 1e-6 ? 0 : slope;
+                };  // rounding of 1
+                J.col(j).tail(a) = ((products(more) - products(less)) / (2 * apart)).unaryExpr(flat);
+            }
+            Eigen::VectorXd step = least_norm(J, f).x;
+            if (const double length = step.lpNorm<Eigen::Infinity>(); length > longest) step *= longest / length;
+            if (!step.allFinite() || step.lpNorm<Eigen::Infinity>() < small_step) return;
+            for (Eigen::Index j = 0; j < n; ++j) start_.q[q_free_[j]] -= step[j];
+        }
+    }
+
     /// Solves for all rates from the initial speeds and, if `obeyed`, the constraints; both are linear in the
     /// rates.
     void solve_for_rates(bool obeyed) {
@@ -118,8 +205,21 @@ private:
     }
 
     void settle(Group group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
-        const std::vector<int> nodes = p_.nodes_of(group);
         const std::vector<double> before = x;
+        solve(group, x, free);
+        report(before, x, free, prime);
+    }
+
+    void report(const std::vector<double>& before, const std::vector<double>& x, const std::vector<int>& free,
+                const char* prime) {
+        for (const int i : free)
+            if (std::abs(x[i] - before[i]) >
+                1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
+                moved_.push_back(say("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+    }
+
+    void solve(Group group, std::vector<double>& x, const std::vector<int>& free) {
+        const std::vector<int> nodes = p_.nodes_of(group);
         const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(free.size());
         double former = HUGE_VAL;
         for (int round = 0; round < most_rounds && n > 0; ++round) {
@@ -146,10 +246,6 @@ private:
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
         check(nodes, x, n > 0);
-        for (const int i : free)
-            if (std::abs(x[i] - before[i]) >
-                1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
-                moved_.push_back(say("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
     /// Whether the constraints are off by no more than the rounding of their own values. Where a linkage lies
@@ -232,6 +328,25 @@ double size_of_terms(const Program& program, int id, const std::vector<double>& 
         sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) *
                std::abs(value[node->args[k]]);
     return factor * sum;
+}
+
+std::optional<std::string> turned_joint(const Mechanism& mechanism, const Program& program,
+                                        const State<double>& state) {
+    constexpr double aligned = 0.5;  // a product of axes is 1, or where they are turned 0 or less
+    if (program.nodes_of(Group::alignment).empty()) return std::nullopt;
+    const std::vector<double> value = interpret(program, state);
+    for (const Root& root : program.roots) {
+        const double product = value[static_cast<std::size_t>(root.node)];
+        if (root.group != Group::alignment || !(product < aligned)) continue;
+        const Mechanism::Alignment& one = mechanism.alignments[static_cast<std::size_t>(root.constraint)];
+        return say(
+            "joint '{}' is turned at the start: of its axes in the parent and in the child, which coincide where "
+            "it "
+            "closes, two are {:.6g} deg apart; give initial values or guesses nearer to the pose that is meant",
+            mechanism.joints[static_cast<std::size_t>(one.joint)].name,
+            std::acos(std::clamp(product, -1.0, 1.0)) * 180 / std::acos(-1.0));
+    }
+    return std::nullopt;
 }
 
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,

@@ -6,6 +6,7 @@
 ///     Start start = start_of(mechanism);
 ///     const std::vector<std::string> moved = assemble(start, mechanism, lower_constraints(mechanism), {});
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,19 @@ struct BrokenConstraint : ModelError {
 /// Throws IntegrationError if guesses do not converge or the speeds lose rank at the start, BrokenConstraint if a
 /// constraint is broken by more than 1e-9 of the sum of the sizes of its terms (and, where something moves, by
 /// more than rounding) and nothing may move, ModelError if the initial speeds are impossible, or if a constraint
-/// that was left out does not hold with these values (left_out.hpp).
+/// that was left out does not hold with these values (left_out.hpp). Throws IntegrationError for a state in which
+/// a joint that closes a loop is turned, though its rows hold.
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey = true);
 
 /// The same for many starts of one mechanism, with its LeftOut(mechanism).
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, const LeftOut& left_out, bool rates_must_obey = true);
+
+/// What is told of a joint that closes a loop where the state obeys its rows turned by half a turn or a third of
+/// one (Mechanism::Alignment); nothing if there is none. The program is lower_constraints(mechanism).
+std::optional<std::string> turned_joint(const Mechanism& mechanism, const Program& program,
+                                        const State<double>& state);
 
 /// A state that obeys the constraints: the initial one with its guesses adjusted, and then, because that may be a
 /// singular pose, a little further on along its rates. Where the given values break the constraints (a contact

@@ -23,7 +23,8 @@ constexpr int states_around = 3;
 // Of a coordinate and of the duration: small, because another branch of the positions is another mechanism.
 constexpr double reach = 1e-2;
 constexpr double farthest = 10;  // in units of the change that was asked for; farther away lies another branch
-constexpr double looser = 1e3;   // what is kept may be off by a tolerance each, and what follows from it by more
+constexpr double looser_near = 10;
+constexpr double looser = 1e3;  // what is kept may be off by a tolerance each, and what follows from it by more
 
 /// A state near this one, for numbers of any size: each coordinate changes by a part of itself, and one that is
 /// zero by as much as the smallest other.
@@ -62,8 +63,6 @@ LeftOut::LeftOut(const Mechanism& m) {
     kept.qdot_is_guess.assign(m.q.size(), true);
     Mechanism all = kept;
     all.constraints.insert(all.constraints.end(), m.redundant.begin(), m.redundant.end());
-    std::vector<std::string> names;
-    for (const Mechanism::Constraint& c : all.constraints) names.push_back(c.name);
     Program program = lower_constraints(all), kept_program = lower_constraints(kept);
     std::set<int> parameters;
     for (int id = 0; id < static_cast<int>(program.size()); ++id)
@@ -74,7 +73,7 @@ LeftOut::LeftOut(const Mechanism& m) {
                        .program = std::move(program),
                        .count_kept = static_cast<int>(m.constraints.size()),
                        .count = static_cast<int>(m.constraints.size() + m.redundant.size()),
-                       .names = std::move(names),
+                       .constraints = all.constraints,
                        .parameters = std::move(parameters)});
 }
 
@@ -98,6 +97,16 @@ void LeftOut::check(const Start& start) const {
         check_position(other.state());
         check_row(other.state());
     }
+}
+
+double LeftOut::size_of_such(int k, const std::function<double(int)>& size) const {
+    const Mechanism::Constraint& one = both_->constraints[static_cast<std::size_t>(k)];
+    double result = one.turns ? 1 : 0;
+    for (int other = 0; other < both_->count; ++other) {
+        const Mechanism::Constraint& c = both_->constraints[static_cast<std::size_t>(other)];
+        if (c.joint == one.joint && c.turns == one.turns) result = std::max(result, size(other));
+    }
+    return result;
 }
 
 bool LeftOut::move_onto_kept(Start& start) const {
@@ -128,8 +137,12 @@ void LeftOut::check_position(const State<double>& state) const {
             row +=
                 std::abs(value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k) * state.q.size() + i])]);
         const double misfit = std::abs(value[static_cast<std::size_t>(node)]);
-        if (misfit >
-            looser * tolerance::initial_values * (size[static_cast<std::size_t>(node)] + row * size_of(state.q)))
+        const bool nearly = both_->constraints[static_cast<std::size_t>(k)].nearly.has_value();
+        const auto terms = [&](int other) {
+            return size[static_cast<std::size_t>(nodes[static_cast<std::size_t>(other)])];
+        };
+        if (misfit > (nearly ? looser_near * tolerance::nearly_dependent_row * size_of_such(k, terms)
+                             : looser * tolerance::initial_values * (terms(k) + row * size_of(state.q))))
             refuse(k, misfit);
     }
 }
@@ -157,6 +170,12 @@ void LeftOut::check_row(const State<double>& state) const {
         const Eigen::RowVectorXd row = A.row(k);
         const Eigen::VectorXd share = least_norm(kept.transpose(), row.transpose()).x;
         const double apart = (row.transpose() - kept.transpose() * share).norm();
+        if (both_->constraints[static_cast<std::size_t>(k)].nearly) {
+            const auto length = [&](int other) { return A.row(other).norm(); };
+            if (apart > looser_near * tolerance::nearly_dependent_row * size_of_such(static_cast<int>(k), length))
+                refuse(static_cast<int>(k), apart);
+            continue;
+        }
         if (apart > looser * tolerance::dependent_row * row.norm() + tolerance::vanished_row * A.norm())
             refuse(static_cast<int>(k), apart);
         const double early = std::abs(drift[k] - share.dot(drift.head(both_->count_kept)));
@@ -186,7 +205,7 @@ void LeftOut::refuse(int constraint, double misfit) const {
     throw ModelError(
         say("constraint '{}' follows from the others at the values of the scene, but is off by {:.6g} at these: "
             "what was added or left out for the scene does not hold there",
-            both_->names[static_cast<std::size_t>(constraint)], misfit));
+            both_->constraints[static_cast<std::size_t>(constraint)].name, misfit));
 }
 
 }  // namespace alembert

@@ -10,6 +10,7 @@
 /// `assemble` checks this for one state. Who gives other values without it (a sweep, a chart, a branch) does so
 /// here.
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,13 +46,15 @@ private:
         Program kept_program;   ///< its rows
         Program program;        ///< the rows of those that are kept, then of those that were left out
         int count_kept, count;  ///< of constraints
-        std::vector<std::string> names;
+        std::vector<Mechanism::Constraint> constraints;
         std::set<int> parameters;  ///< on which they depend
     };
     bool has_other_parameters(const Start& start) const;
     bool move_onto_kept(Start& start) const;
     void check_position(const State<double>& state) const;
     void check_row(const State<double>& state) const;
+    /// The largest of these sizes of rows of the same joint that shift, or turn (then 1 at least), as row k does.
+    double size_of_such(int k, const std::function<double(int)>& size) const;
     [[noreturn]] void refuse(int constraint, double misfit) const;
 
     std::optional<Both> both_;  ///< nothing if nothing was left out

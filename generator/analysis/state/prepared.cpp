@@ -5,6 +5,7 @@
 
 #include "analysis/state/inertia_check.hpp"
 #include "analysis/state/likely_mistakes.hpp"
+#include "analysis/state/nearly_redundant.hpp"
 #include "analysis/state/redundancy.hpp"
 #include "analysis/state/touching.hpp"
 #include "base/language/say.hpp"
@@ -103,7 +104,9 @@ Prepared prepared(Scene scene, const Overrides& at, bool on_sheets, Coordinates 
         throw ModelError(
             say("the scene has no coordinates, so that nothing in it moves; eval --reactions and derive "
                 "--reactions give what its joints bear"));
-    result.mechanism = with_regular_constraints(with_regular_rows(std::move(built.mechanism)));
+    result.mechanism =
+        with_regular_constraints(with_regular_rows(without_nearly_redundant(std::move(built.mechanism))));
+    result.warn(warnings_of_nearly_redundant(result.mechanism));
     result.warn(warnings_of_squares(result));
     result.warn(warnings_of_moving_places(result));
     result.sheets = std::move(built.sheets);

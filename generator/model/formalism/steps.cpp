@@ -29,9 +29,9 @@ Phrase StepWriter::rate(const GiNaC::symbol& momentum) const {
     return phrases::symbol(momentum, info);
 }
 
-std::optional<Fourier> StepWriter::normal(const ex& e) const {
+std::optional<Fourier> StepWriter::normal(const ex& e, std::size_t most) const {
     if (m_.z->tree_size(e) > largest_shown) return std::nullopt;
-    std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
+    std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, most * most_terms);
     if (f && f->size() > most_terms) return std::nullopt;
     return f;
 }

@@ -52,8 +52,9 @@ public:
     static Phrase letter(const std::string& name);
     /// The rate p' of a momentum p.
     Phrase rate(const GiNaC::symbol& momentum) const;
-    /// The normal form; nothing if the expression exceeds the readable size.
-    std::optional<Fourier> normal(const GiNaC::ex& e) const;
+    /// The normal form; nothing if the expression exceeds the readable size, or on the way to it `most` times
+    /// that.
+    std::optional<Fourier> normal(const GiNaC::ex& e, std::size_t most = 20) const;
 
     /// left = value
     void equality(Section& section, const Phrase& left, const GiNaC::ex& value) const;

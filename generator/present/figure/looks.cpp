@@ -60,7 +60,8 @@ LooksOfScene::Axes LooksOfScene::axes_of(const Shape& shape, const Vector3& plac
 LooksOfScene::Axes LooksOfScene::axes_of_mass(const std::string& name, const Shape& shape) {
     const bool is_body = std::any_of(s_.scene.bodies.begin(), s_.scene.bodies.end(),
                                      [&](const Body& body) { return body.name.text == name; });
-    return axes_of(shape, s_.formulas.places().position(name), is_body ? name : "N");
+    Places& places = s_.formulas.places();
+    return axes_of(shape, places.position(places.centre_of(name)), is_body ? name : "N");
 }
 
 Vector3 LooksOfScene::in(const Axes& axes, const ex& x, const ex& y, const ex& z) {
@@ -215,7 +216,8 @@ void LooksOfScene::add_turned(const Shape& shape, const Axes& axes, int owner) {
 double LooksOfScene::reach(const std::string& name, const Vector3d& direction) {
     const Shape& shape = *looks_.shape_of(name);
     const Axes axes = axes_of_mass(name, shape);
-    const Vector3d middle = s_.numbers(axes.middle) - s_.numbers(s_.formulas.places().position(name));
+    Places& places = s_.formulas.places();
+    const Vector3d middle = s_.numbers(axes.middle) - s_.numbers(places.position(places.centre_of(name)));
     double far = middle.dot(direction);
     if (shape.kind == Shape::Kind::box || shape.kind == Shape::Kind::polygon) {
         const std::array<int, 3> k = order(s_.is_plane ? 0 : 'z');

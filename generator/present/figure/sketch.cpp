@@ -104,7 +104,7 @@ void Sketch::collect_sites() {
     for (const Particle& p : scene.particles)
         add(Site::Of::mass, p.name.text, p.position.from.text, mass_named(Origin::Kind::particle, p.name.text));
     for (const Body& b : scene.bodies)
-        add(Site::Of::mass, b.name.text, b.has_position ? b.position.from.text : "",
+        add(Site::Of::mass, b.point().text, b.has_position ? b.position.from.text : "",
             mass_named(Origin::Kind::body, b.name.text));
     for (const Joint& joint : scene.joints)
         for (const Joint::Side* side : {&joint.parent, &joint.child}) {

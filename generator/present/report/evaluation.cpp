@@ -58,7 +58,10 @@ Json as_json(const Evaluation& e, bool reactions) {
     for (const auto& [name, side] : e.frictions) result["friction"][name] = mode_of(e, name, side);
     if (!e.adjusted.empty()) result["adjusted"] = e.adjusted;
     result["outputs"] = object_of(e.outputs);
-    if (!e.mass.empty()) result["matrices"] = {{"M", e.mass}, {"C", e.coriolis}};
+    if (!e.mass.empty()) {
+        result["matrices"] = {{"M", e.mass}, {"C", e.coriolis}};
+        if (!e.no_coriolis.empty()) result["matrices"]["C"] = nullptr;
+    }
     if (Json units = si_units(e.mechanism); !units.empty()) result["units"] = std::move(units);
     if (!reactions) return result;
     result["reactions"] = Json::object();
@@ -97,6 +100,7 @@ std::string as_text(const Evaluation& e) {
             for (const double x : (*rows)[i]) put(page, "{:>24.16g}", x + 0.0);
             put(page, "\n");
         }
+    if (!e.no_coriolis.empty()) put(page, "{}\n", e.no_coriolis);
     if (!e.joint_loads.empty()) page += say("\nJoints exert on their children, along the joint's axes:\n");
     for (const JointLoad& load : e.joint_loads)
         for (const auto& [what, v] :

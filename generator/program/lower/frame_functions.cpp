@@ -89,6 +89,10 @@ std::vector<FunctionProgram> frame_functions(const Scene& scene, const Mechanism
     return result;
 }
 
+void check_place(const Scene& scene, const std::string& place) {
+    check_spot(scene, place);
+}
+
 const std::vector<std::string>& functions_of_masses() {
     static const std::vector<std::string> names{"com", "com_jacobian", "momentum", "centroidal",
                                                 "centroidal_drift"};

@@ -33,6 +33,9 @@ namespace alembert {
 std::vector<FunctionProgram> frame_functions(const Scene& scene, const Mechanism& mechanism,
                                              const std::string& place, const std::string& prefix, bool fold);
 
+/// Throws ModelError for such names at once.
+void check_place(const Scene& scene, const std::string& place);
+
 /// The names above of functions of the whole system.
 const std::vector<std::string>& functions_of_masses();
 /// Whether there is a mass at all; those of parameters count.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "program/lower/lower.hpp"
 
+#include <algorithm>
+
 #include "program/lower/lowering.hpp"
 
 namespace alembert {
@@ -19,6 +21,24 @@ Program begun(const Mechanism& m, bool fold) {
     return program;
 }
 
+namespace {
+
+/// The positions of alignments whose joints have all their rows, kept or left out.
+std::vector<int> closed_joints(const Mechanism& m) {
+    std::vector<int> result;
+    for (std::size_t k = 0; k < m.alignments.size(); ++k) {
+        std::size_t rows = 0;
+        for (const auto* list : {&m.constraints, &m.redundant})
+            rows += static_cast<std::size_t>(
+                std::count_if(list->begin(), list->end(),
+                              [&](const Mechanism::Constraint& c) { return c.joint == m.alignments[k].joint; }));
+        if (rows >= m.alignments[k].rows) result.push_back(static_cast<int>(k));
+    }
+    return result;
+}
+
+}  // namespace
+
 Program lower_constraints(const Mechanism& m) {
     Program program = begun(m, false);
     Lowering lowering(program, m, false);
@@ -29,6 +49,11 @@ Program lower_constraints(const Mechanism& m) {
     };
     for (const Mechanism::Constraint& c : m.constraints) want(c.row, c.position.value_or(0), c.drift);
     for (const Mechanism::Speed& s : m.speeds) want(s.row, s.form, s.drift);
+    const std::vector<int> closed = closed_joints(m);
+    for (const int k : closed) {
+        const std::vector<ex>& between = m.alignments[static_cast<std::size_t>(k)].between;
+        wanted.insert(wanted.end(), between.begin(), between.end());
+    }
     lowering.lower_definitions(wanted);
     const auto linear = [&](const std::vector<ex>& row, const ex& drift, Group group) {
         std::vector<Program::Term> value{{1, lowering(drift)}};
@@ -45,6 +70,9 @@ Program lower_constraints(const Mechanism& m) {
     }
     for (const Mechanism::Speed& s : m.speeds)
         program.roots.push_back({Group::speed, s.u.get_name(), linear(s.row, s.drift, Group::form_row)});
+    for (const int k : closed)
+        for (const ex& product : m.alignments[static_cast<std::size_t>(k)].between)
+            program.roots.push_back({Group::alignment, "", lowering(product), k});
     return program.canonical();
 }
 

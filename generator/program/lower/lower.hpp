@@ -43,7 +43,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
               const LowerOptions& options = {});
 
 /// Lowers only the constraints and the scene's speeds, in q and q': groups row, position, velocity, form_row and
-/// speed.
+/// speed; and alignment, for joints all of whose rows are among the mechanism's constraints.
 Program lower_constraints(const Mechanism& mechanism);
 
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.

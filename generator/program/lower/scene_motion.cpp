@@ -39,7 +39,7 @@ std::vector<std::string> names_in(const Scene& scene, bool frames) {
         for (const Point& p : scene.points) names.push_back(p.name.text);
         for (const Particle& p : scene.particles) names.push_back(p.name.text);
     }
-    for (const Body& b : scene.bodies) names.push_back(b.name.text);
+    for (const Body& b : scene.bodies) names.push_back(frames ? b.name.text : b.point().text);
     return names;
 }
 
@@ -68,10 +68,10 @@ const SceneMotion::Rates& SceneMotion::unit_rate(int k) {
     return units_.try_emplace(k, *this, all_as(p_, m_.qdot, k)).first->second;
 }
 
-SceneMotion::Spot SceneMotion::spot(const std::string& name) {
+void check_spot(const Scene& scene, const std::string& name) {
     const std::size_t cut = name.find('@');
     const std::string point = name.substr(0, cut);
-    const std::vector<std::string> points = names_in(scene_, false), frames = names_in(scene_, true);
+    const std::vector<std::string> points = names_in(scene, false), frames = names_in(scene, true);
     if (!has(points, point) && has(frames, point))
         throw ModelError(
             say("{} is a frame, which has directions but no place; name a point with it, as in '{}@{}'",
@@ -79,17 +79,26 @@ SceneMotion::Spot SceneMotion::spot(const std::string& name) {
     if (!has(points, point))
         throw ModelError(
             say("there is no point or body {}; expected one of: {}", in_quotes(point), fmt::join(points, ", ")));
-    std::string frame = has(frames, point) ? point : places().frame_of(point);
-    if (cut != std::string::npos) frame = name.substr(cut + 1);
+    const std::string frame = cut == std::string::npos ? "N" : name.substr(cut + 1);
     if (!has(frames, frame))
         throw ModelError(
             say("there is no frame or body {}; expected one of: {}", in_quotes(frame), fmt::join(frames, ", ")));
+}
+
+SceneMotion::Spot SceneMotion::spot(const std::string& name) {
+    check_spot(scene_, name);
+    const std::size_t cut = name.find('@');
+    const std::string point = name.substr(0, cut);
+    const std::string frame = cut != std::string::npos             ? name.substr(cut + 1)
+                              : has(names_in(scene_, true), point) ? point
+                                                                   : places().frame_of(point);
     return {.point = places().point(point), .frame = places().orientation(frame).frame};
 }
 
 SceneMotion::Spot SceneMotion::spot_of(const MassElement& mass) {
     const std::string& name = mass.origin.name;
-    return {.point = places().point(name), .frame = mass.rotation ? places().orientation(name).frame : 0};
+    return {.point = places().point(places().centre_of(name)),
+            .frame = mass.rotation ? places().orientation(name).frame : 0};
 }
 
 SceneMotion::Origin SceneMotion::origin_of(const MassElement& mass) {

@@ -31,6 +31,9 @@ struct LinearAngular {
     Triple<Symbolic> linear{0, 0, 0}, angular{0, 0, 0};
 };
 
+/// Throws ModelError for what SceneMotion::spot does not take.
+void check_spot(const Scene& scene, const std::string& name);
+
 class SceneMotion {
 public:
     /// The arguments must outlive the object, and `mechanism` must have a table of intermediate symbols of its

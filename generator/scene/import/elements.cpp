@@ -172,6 +172,7 @@ void Elements::read_inertial(const TiXmlElement& inertial, Robot::Link& link) {
                                        fmt::join(missing, ", ")));
     const Real33 own = inertia_matrix<double>({ixx, iyy, izz, ixy, iyz, ixz});
     link.inertia = turned<double>(own, at.rotation());
+    if (!at.rpy.isZero(0)) link.own_axes = {at.rpy, own};
     const double rounding = link.mass * 1e-12;  // of a body of a micrometre
     if (const PrincipalAxes<> principal = principal_axes<double>(own);
         has_negative_moment(principal, rounding / rounded_moment))

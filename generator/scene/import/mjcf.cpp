@@ -91,6 +91,7 @@ Robot MjcfReader::read() {
     finish_tendons();
     each("actuator", [&](const XmlElement& e) { read_actuator(e); });
     each("equality", [&](const XmlElement& e) { read_equality(e); });
+    each("keyframe", [&](const XmlElement& e) { read_key(e); });
     switch_off();
     robot_.dropped = file_.left_out(
         [](const XmlElement& e, const std::string& attribute) { return effect_of(e.Name(), attribute); });

@@ -211,45 +211,82 @@ void MjcfReader::switch_off() {
         for (Robot::Link& link : robot_.links) link.held = 0;
 }
 
-void MjcfReader::read_actuator(const XmlElement& e) {
-    const std::string tag = e.Name(), name = name_of(e, fmt::format("motor{}", robot_.actuators->size() + 1));
-    const auto word = [&](const char* key, const char* otherwise) {
-        return values_->text(e, key, "general").value_or(otherwise);
-    };
-    const auto on_joint = file_.text(e, "joint") ? file_.text(e, "joint") : file_.text(e, "jointinparent");
+/// What the motor acts on; or what is told of one that cannot be had.
+std::optional<std::string> MjcfReader::take_motor_of(const XmlElement& e, Robot::Actuator& motor) {
+    const bool in_parent = !file_.text(e, "joint") && file_.text(e, "jointinparent");
+    const auto on_joint = file_.text(e, in_parent ? "jointinparent" : "joint");
+    std::vector<double> gear = values_->numbers(e, "gear", 0, "general").value_or(std::vector<double>{1});
+    gear.resize(6);
+    motor.gear = gear[0];
+    const Real3 first(gear[0], gear[1], gear[2]), second(gear[3], gear[4], gear[5]);
+    if (on_joint) {
+        motor.joint = joint_named(e, *on_joint);
+        const Robot::Joint& joint = robot_.joints[static_cast<std::size_t>(motor.joint)];
+        if (joint.type == Type::floating)
+            motor.wrench = {.link = joint.child,
+                            .torque_axes = in_parent ? -1 : joint.child,
+                            .force = first,
+                            .torque = second};
+        else if (joint.type == Type::spherical)
+            motor.wrench = {.link = joint.child,
+                            .torque_axes = in_parent ? joint.parent : joint.child,
+                            .against = joint.parent,
+                            .torque = first};
+        return std::nullopt;
+    }
+    if (const auto site = file_.text(e, "site")) {
+        if (file_.text(e, "refsite")) return say("<{}> between two sites", e.Name());
+        const int link = site_named(e, *site).link;
+        motor.wrench = {.link = link, .force_axes = link, .torque_axes = link, .force = first, .torque = second};
+        return std::nullopt;
+    }
     const auto on_tendon = file_.text(e, "tendon");
-    const bool is_known = tag == "general" || tag == "motor" || tag == "position" || tag == "velocity";
-    const bool acts_alone =
-        !is_known || tag == "position" || tag == "velocity" || word("biastype", "none") != "none";
+    if (!on_tendon) return fmt::format("<{}>", e.Name());
+    const auto found = tendons_.find(*on_tendon);
+    if (found == tendons_.end())
+        file_.refuse(e,
+                     say("{} names the tendon {}, which is none of this model", shown(e), in_quotes(*on_tendon)));
+    motor.tendon = found->second;
+    if (motor.tendon < 0 || !robot_.tendons[static_cast<std::size_t>(motor.tendon)].stretches.empty())
+        return say("<{}> on a tendon through sites", e.Name());
+    return std::nullopt;
+}
+
+void MjcfReader::read_actuator(const XmlElement& e) {
+    const std::string name = name_of(e, fmt::format("motor{}", ++motors_));
+    const Law law = law_of(e);
     const auto leave_out = [&](const std::string& what) {
         file_.ignore(e);
-        file_.drop(what, name, acts_alone ? Effect::motion : Effect::driven);
+        file_.drop(what, name, !law.is_known || law.bias_type != "none" ? Effect::motion : Effect::driven);
     };
-    if (!is_known || (!on_joint && !on_tendon)) return leave_out(fmt::format("<{}>", tag));
+    Robot::Actuator motor{.name = name, .joint = -1};
+    if (!law.is_known) return leave_out(fmt::format("<{}>", e.Name()));
+    if (const auto what = take_motor_of(e, motor)) return leave_out(*what);
     file_.children(*e.Parent()->ToElement(), e.Name());
-    Robot::Actuator motor{.name = name, .joint = on_joint ? joint_named(e, *on_joint) : -1};
-    const Type type = on_joint ? robot_.joints[static_cast<std::size_t>(motor.joint)].type : Type::revolute;
-    if (type == Type::spherical || type == Type::floating || word("dyntype", "none") != "none" ||
-        values_->number(e, "timeconst", "general").value_or(0) != 0 || word("gaintype", "fixed") != "fixed" ||
-        (tag == "general" && word("biastype", "none") != "none" && word("biastype", "none") != "affine"))
-        return leave_out(say("<{}> with states, or on a ball or free joint", tag));
-    if (!on_joint) {
-        const auto found = tendons_.find(*on_tendon);
-        if (found == tendons_.end())
-            file_.refuse(
-                e, say("{} names the tendon {}, which is none of this model", shown(e), in_quotes(*on_tendon)));
-        motor.tendon = found->second;
-        if (motor.tendon < 0 || !robot_.tendons[static_cast<std::size_t>(motor.tendon)].stretches.empty())
-            return leave_out(say("<{}> on a tendon through sites", tag));
+    if (law.dynamics != "none" || law.gain_type != "fixed" || !law.is_affine())
+        return leave_out(say("<{}> with states, or of a law that is not affine", e.Name()));
+    motor.gain = law.gain[0];
+    if (law.bias_type == "affine") {
+        motor.constant = law.bias[0];
+        motor.along = law.bias[1];
+        motor.rate = law.bias[2];
     }
-    read_law(e, motor);
+    if (motor.wrench && (motor.along != 0 || motor.rate != 0))
+        return leave_out(say("<{}> that measures, at a site or on a ball or free joint", e.Name()));
     set_damping_ratio(e, motor);
     tell_defaults(
         e, name, "general",
         {"gear", "kp", "kv", "dampratio", "gainprm", "biasprm", "gaintype", "biastype", "dyntype", "timeconst"});
-    const double reference = on_joint ? references_[robot_.joints[static_cast<std::size_t>(motor.joint)].name]
-                                      : robot_.tendons[static_cast<std::size_t>(motor.tendon)].at_reference;
-    motor.constant += motor.along * motor.gear * reference;
+    for (const char* own :
+         {"kp", "kv", "dampratio", "gainprm", "biasprm", "gaintype", "biastype", "dyntype", "timeconst"})
+        file_.ignore(e, own);
+    if (!motor.wrench) {
+        const double reference = motor.joint >= 0
+                                     ? references_[robot_.joints[static_cast<std::size_t>(motor.joint)].name]
+                                     : robot_.tendons[static_cast<std::size_t>(motor.tendon)].at_reference;
+        motor.constant += motor.along * motor.gear * reference;
+    }
+    motor_numbers_.push_back(motors_ - 1);
     robot_.actuators->push_back(std::move(motor));
 }
 
@@ -272,32 +309,92 @@ void MjcfReader::set_damping_ratio(const XmlElement& e, Robot::Actuator& motor) 
         e,
         say("the damping ratio of motor {} is {:.6g} as a damping, with the inertia of MuJoCo 3; MuJoCo 4 takes "
             "the reciprocal of the mobility",
-            in_quotes(motor.name), -motor.rate));
+            in_quotes(motor.name), -motor.rate),
+        "version");
 }
 
-/// force = gain u + constant + along·length + rate·velocity, with length = gear·(q + reference)
-void MjcfReader::read_law(const XmlElement& e, Robot::Actuator& motor) {
+/// All kinds of motors are one element of MuJoCo, with one default in each class: each <general>, <position> … on
+/// the way writes into it, in the order of the file, and what it does not name stays as the one before has left
+/// it.
+MjcfReader::Law MjcfReader::law_of(const XmlElement& e) {
+    Law law;
+    for (const XmlElement* before : values_->defaults_of(e, "general")) change_law(*before, law);
+    change_law(e, law);
+    return law;
+}
+
+void MjcfReader::change_law(const XmlElement& e, Law& law) {
     const std::string tag = e.Name();
-    const auto number = [&](const char* key, double otherwise) {
-        return values_->number(e, key, "general").value_or(otherwise);
+    const auto take = [&](const char* key, std::vector<double>& into) {
+        const auto given = file_.numbers(e, key);
+        for (std::size_t k = 0; given && k < std::min(given->size(), into.size()); ++k) into[k] = (*given)[k];
     };
-    if (const auto gear = values_->numbers(e, "gear", 0, "general")) motor.gear = (*gear)[0];
-    if (tag == "position") {
-        motor.gain = number("kp", 1);
-        motor.along = -motor.gain;
-        motor.rate = values_->number(e, "dampratio", "general") ? number("dampratio", 0) : -number("kv", 0);
+    const auto word = [&](const char* key, std::string& into) { into = file_.text(e, key).value_or(into); };
+    if (tag == "general") {
+        word("dyntype", law.dynamics);
+        word("gaintype", law.gain_type);
+        word("biastype", law.bias_type);
+        take("gainprm", law.gain);
+        take("biasprm", law.bias);
+        law.is_known = true;
+    } else if (tag == "motor") {
+        law = {.bias = law.bias};
+    } else if (tag == "position") {
+        law.gain = {file_.number(e, "kp").value_or(law.gain[0])};
+        law.bias[1] = -law.gain[0];
+        if (const auto kv = file_.number(e, "kv")) law.bias[2] = -*kv;
+        if (const auto ratio = file_.number(e, "dampratio")) law.bias[2] = *ratio;
+        if (const auto time = file_.number(e, "timeconst")) law.dynamics = *time == 0 ? "none" : "filterexact";
+        law.gain_type = "fixed";
+        law.bias_type = "affine";
+        law.is_known = true;
     } else if (tag == "velocity") {
-        motor.gain = number("kv", 1);
-        motor.rate = -motor.gain;
-    } else if (tag == "general") {
-        if (const auto gain = values_->numbers(e, "gainprm")) motor.gain = (*gain)[0];
-        const auto bias = values_->numbers(e, "biasprm");
-        if (bias && values_->text(e, "biastype", "general").value_or("none") == "affine") {
-            motor.constant = (*bias)[0];
-            motor.along = bias->size() > 1 ? (*bias)[1] : 0;
-            motor.rate = bias->size() > 2 ? (*bias)[2] : 0;
-        }
+        law.gain = {file_.number(e, "kv").value_or(law.gain[0])};
+        law.bias = {0, 0, -law.gain[0]};
+        law.dynamics = "none";
+        law.gain_type = "fixed";
+        law.bias_type = "affine";
+        law.is_known = true;
+    } else {
+        law.is_known = false;
     }
+}
+
+/// A state of <keyframe>: qpos has the joints in the order of the tree, a free one with a place and a quaternion.
+void MjcfReader::read_key(const XmlElement& e) {
+    file_.children(*e.Parent()->ToElement(), e.Name());
+    Robot::Keyframe key{.name = name_of(e, fmt::format("key{}", robot_.keyframes.size()))};
+    const auto list = [&](const char* attribute, std::size_t size) {
+        std::vector<double> given = file_.numbers(e, attribute).value_or(std::vector<double>(size, NAN));
+        if (given.size() != size)
+            file_.refuse(e, say("{} of {} has {} numbers; expected {}", attribute, shown(e), given.size(), size));
+        return given;
+    };
+    std::size_t positions = 0, rates = 0;
+    for (const Robot::Joint& joint : robot_.joints) {
+        const bool floats = joint.type == Type::floating, turns = joint.type == Type::spherical;
+        positions += joint.type == Type::fixed ? 0 : floats ? 7 : turns ? 4 : 1;
+        rates += joint.type == Type::fixed ? 0 : floats ? 6 : turns ? 3 : 1;
+    }
+    const std::vector<double> q = list("qpos", positions), u = list("qvel", rates);
+    auto at = q.begin(), rate = u.begin();
+    for (const Robot::Joint& joint : robot_.joints) {
+        const bool floats = joint.type == Type::floating, turns = joint.type == Type::spherical;
+        const std::ptrdiff_t wide = joint.type == Type::fixed ? 0
+                                    : floats                  ? 7
+                                    : turns                   ? 4
+                                                              : 1,
+                             fast = wide > 1 ? wide - 1 : wide;
+        key.position.emplace_back(at, at + wide);
+        key.rate.emplace_back(rate, rate + fast);
+        at += wide;
+        rate += fast;
+        if (wide == 1) key.position.back()[0] -= references_[joint.name];
+    }
+    std::vector<double> all = list("ctrl", static_cast<std::size_t>(motors_));
+    for (const int k : motor_numbers_) key.control.push_back(all[static_cast<std::size_t>(k)]);
+    for (const char* unused : {"time", "act", "mpos", "mquat"}) file_.ignore(e, unused);
+    robot_.keyframes.push_back(std::move(key));
 }
 
 void MjcfReader::read_equality(const XmlElement& e) {
@@ -305,19 +402,21 @@ void MjcfReader::read_equality(const XmlElement& e) {
     const std::string name =
         name_of(e, fmt::format("{}{}", tag, robot_.loops.size() + robot_.couplings.size() + 1));
     const bool is_known = tag == "connect" || tag == "weld" || tag == "joint" || tag == "tendon";
-    const bool is_active = values_->flag(e, "active") != false;
+    const bool is_active = values_->flag(e, "active", "equality") != false;
     if (!is_known || !is_active) {
         file_.ignore(e);
         const bool matters = is_active && !is_off_constraint("equality");
         return file_.drop(fmt::format("<{}> of <equality>", tag), name, matters ? Effect::motion : Effect::none);
     }
     file_.children(*e.Parent()->ToElement(), e.Name());
-    file_.ignore(e, "torquescale");
     return tag == "joint" || tag == "tendon" ? read_coupling(e, name) : read_loop(e, name);
 }
 
 void MjcfReader::read_loop(const XmlElement& e, const std::string& name) {
-    const Type type = std::strcmp(e.Name(), "connect") == 0 ? Type::spherical : Type::fixed;
+    // A weld whose torques count nothing holds a point alone.
+    const bool is_weld = std::strcmp(e.Name(), "weld") == 0;
+    const bool may_turn = file_.number(e, "torquescale").value_or(1) == 0;
+    const Type type = is_weld && !may_turn ? Type::fixed : Type::spherical;
     if (const auto site = file_.text(e, "site1")) {
         const Site &one = site_named(e, *site), &two = site_named(e, file_.needed_text(e, "site2"));
         robot_.loops.push_back({.name = name,
@@ -331,7 +430,7 @@ void MjcfReader::read_loop(const XmlElement& e, const std::string& name) {
     const Body &one = body_named(e, "body1"), &two = body_named(e, "body2");
     const RobotPlace to_two = composed(inverted(two.place), one.place);
     const Real3 anchor = values_->three(e, "anchor", Real3::Zero());
-    if (type == Type::spherical) {
+    if (!is_weld) {
         robot_.loops.push_back({.name = name,
                                 .type = type,
                                 .parent = one.link,

@@ -67,8 +67,18 @@ private:
     bool read_path(const XmlElement& e, Robot::Tendon& tendon);
     void finish_tendons();
     void read_actuator(const XmlElement& e);
-    void read_law(const XmlElement& e, Robot::Actuator& motor);
+    /// The law of a motor: force = gain·u + bias[0] + bias[1]·length + bias[2]·velocity.
+    struct Law {
+        std::vector<double> gain{1}, bias{0, 0, 0};
+        std::string dynamics = "none", gain_type = "fixed", bias_type = "none";
+        bool is_known = true;
+        bool is_affine() const { return bias_type == "affine" || bias_type == "none"; }
+    };
+    Law law_of(const XmlElement& e);
+    void change_law(const XmlElement& e, Law& law);
+    std::optional<std::string> take_motor_of(const XmlElement& e, Robot::Actuator& motor);
     void set_damping_ratio(const XmlElement& e, Robot::Actuator& motor);
+    void read_key(const XmlElement& e);
     void read_equality(const XmlElement& e);
     void read_loop(const XmlElement& e, const std::string& name);
     void read_coupling(const XmlElement& e, const std::string& name);
@@ -84,6 +94,8 @@ private:
     std::vector<std::size_t> rests_;            // tendons that are slack in the pose of the springs
     std::map<std::size_t, std::array<double, 2>> spring_dampers_;  // by joint: time constant, damping ratio
     std::optional<ReferenceMass> reference_;
+    int motors_ = 0;                  // of the file
+    std::vector<int> motor_numbers_;  // of those that are had
     std::set<std::string> disabled_;  // by <flag>
 };
 

@@ -71,13 +71,16 @@ const MjcfValues::Class& MjcfValues::class_of(const XmlElement& e) {
 
 void MjcfValues::each_default(const XmlElement& e, const char* or_as,
                               const std::function<bool(const XmlElement&)>& give) {
+    static const std::set<std::string> motors{"general", "motor",    "position", "velocity", "intvelocity",
+                                              "damper",  "cylinder", "muscle",   "adhesion", "plugin"};
+    const bool is_motor = or_as != nullptr && std::strcmp(or_as, "general") == 0;
+    const auto counts = [&](const std::string& tag) {
+        return tag == e.Name() || (is_motor ? motors.contains(tag) : or_as != nullptr && tag == or_as);
+    };
     for (const Class* c = &class_of(e);; c = &classes_.at(c->parent)) {
         for (const XmlElement* all : c->elements)
-            for (const char* tag : {e.Name(), or_as})
-                if (tag != nullptr)
-                    for (const XmlElement* d = all->FirstChildElement(tag); d != nullptr;
-                         d = d->NextSiblingElement(tag))
-                        if (give(*d)) return;
+            for (const XmlElement* d = all->LastChildElement(); d != nullptr; d = d->PreviousSiblingElement())
+                if (counts(d->Name()) && give(*d)) return;
         if (c->parent.empty()) return;
     }
 }
@@ -102,6 +105,15 @@ std::set<std::string> MjcfValues::default_attributes(const XmlElement& e, const 
     return result;
 }
 
+std::vector<const XmlElement*> MjcfValues::defaults_of(const XmlElement& e, const char* or_as) {
+    std::vector<const XmlElement*> result;
+    each_default(e, or_as, [&](const XmlElement& d) {
+        result.insert(result.begin(), &d);
+        return false;
+    });
+    return result;
+}
+
 std::optional<std::vector<double>> MjcfValues::numbers(const XmlElement& e, const char* attribute,
                                                        std::size_t count, const char* or_as) {
     const std::optional<std::string> value = text(e, attribute, or_as);
@@ -114,8 +126,8 @@ std::optional<double> MjcfValues::number(const XmlElement& e, const char* attrib
     return list ? std::optional(list->front()) : std::nullopt;
 }
 
-std::optional<bool> MjcfValues::flag(const XmlElement& e, const char* attribute) {
-    const std::optional<std::string> value = text(e, attribute);
+std::optional<bool> MjcfValues::flag(const XmlElement& e, const char* attribute, const char* or_as) {
+    const std::optional<std::string> value = text(e, attribute, or_as);
     if (!value || *value == "auto") return std::nullopt;
     return file_.truth(e, *value);
 }

@@ -33,14 +33,17 @@ public:
 
     XmlFile& file() const { return file_; }
     /// The attribute, or that of the default of the element's class and of the classes around it. `or_as` is the
-    /// name of another element whose default also counts, as <general> for <motor>.
+    /// name of another element whose default also counts, as <equality> for <weld>; <general> stands for motors of
+    /// all kinds, which share one default: what is written last counts.
     std::optional<std::string> text(const XmlElement& e, const char* attribute, const char* or_as = nullptr);
     std::optional<std::vector<double>> numbers(const XmlElement& e, const char* attribute, std::size_t count = 0,
                                                const char* or_as = nullptr);
     std::optional<double> number(const XmlElement& e, const char* attribute, const char* or_as = nullptr);
-    std::optional<bool> flag(const XmlElement& e, const char* attribute);
+    std::optional<bool> flag(const XmlElement& e, const char* attribute, const char* or_as = nullptr);
     /// The attributes that the defaults of an element give.
     std::set<std::string> default_attributes(const XmlElement& e, const char* or_as);
+    /// The elements of defaults that count for an element, each before those that count more.
+    std::vector<const XmlElement*> defaults_of(const XmlElement& e, const char* or_as);
     Real3 three(const XmlElement& e, const char* attribute, const Real3& missing);
     Real33 rotation(const XmlElement& e);
     RobotPlace place(const XmlElement& e) { return {three(e, "pos", Real3::Zero()), rotation(e)}; }

@@ -7,6 +7,8 @@
 
 #include "scene/import/robot.hpp"
 
+#include "alembert/base/inertia.hpp"
+
 namespace alembert {
 
 std::optional<int> twelfths_of_pi(double angle) {
@@ -59,23 +61,39 @@ RobotPlace inverted(const RobotPlace& place) {
     return {-(place.R.transpose() * place.shift), place.R.transpose()};
 }
 
+namespace {
+
+/// The multiple of π/2 that an angle with few digits stands for.
+std::optional<double> right_angle_meant(double angle) {
+    const double right = std::round(angle / M_PI_2) * M_PI_2;
+    if (right == 0 || twelfths_of_pi(angle)) return std::nullopt;
+    const std::string text = fmt::format("{}", angle);
+    const std::size_t point = text.find('.');
+    if (point == std::string::npos || text.find('e') != std::string::npos) return std::nullopt;
+    const int decimals = static_cast<int>(text.size() - point) - 1;
+    const double scale = std::pow(10, decimals), written = std::abs(angle) * scale,
+                 exact = std::abs(right) * scale;
+    if (decimals < 2 || decimals > 14) return std::nullopt;
+    if (std::round(written) != std::round(exact) && std::round(written) != std::floor(exact)) return std::nullopt;
+    return right;
+}
+
+}  // namespace
+
 int rounded_right_angles(Robot& robot, bool mend) {
     int count = 0;
     for (Robot::Joint& joint : robot.joints)
-        for (double& angle : joint.at.rpy) {
-            const double right = std::round(angle / M_PI_2) * M_PI_2;
-            if (right == 0 || twelfths_of_pi(angle)) continue;
-            const std::string text = fmt::format("{}", angle);
-            const std::size_t point = text.find('.');
-            if (point == std::string::npos || text.find('e') != std::string::npos) continue;
-            const int decimals = static_cast<int>(text.size() - point) - 1;
-            const double scale = std::pow(10, decimals), written = std::abs(angle) * scale,
-                         exact = std::abs(right) * scale;
-            if (decimals < 2 || decimals > 14) continue;
-            if (std::round(written) != std::round(exact) && std::round(written) != std::floor(exact)) continue;
-            ++count;
-            if (mend) angle = right;
-        }
+        for (double& angle : joint.at.rpy)
+            if (const std::optional<double> right = right_angle_meant(angle)) {
+                ++count;
+                if (mend) angle = *right;
+            }
+    for (Robot::Link& link : robot.links) {
+        if (!mend || !link.own_axes) continue;
+        for (double& angle : link.own_axes->rpy) angle = right_angle_meant(angle).value_or(angle);
+        link.inertia =
+            turned<double>(link.own_axes->inertia, RobotPose{Real3::Zero(), link.own_axes->rpy}.rotation());
+    }
     return count;
 }
 

@@ -49,8 +49,14 @@ struct Robot {
         double mass = 0;
         Real3 centre = Real3::Zero();
         Real33 inertia = Real33::Zero();  ///< about the mass centre, along the link's axes
-        double held = 0;                  ///< the part of its weight that an upward force at its mass centre bears
-        int joint = -1;                   ///< the joint above; −1 for the root
+        /// The inertia along axes that are turned against the link's, where the file gives them so by angles.
+        struct OwnAxes {
+            Real3 rpy;
+            Real33 inertia;
+        };
+        std::optional<OwnAxes> own_axes = {};
+        double held = 0;  ///< the part of its weight that an upward force at its mass centre bears
+        int joint = -1;   ///< the joint above; −1 for the root
     };
     enum class Type {
         fixed,
@@ -127,10 +133,25 @@ struct Robot {
     /// A motor with the control u: gear·(gain·u + constant + along·gear·q + rate·gear·q') along q, or along the
     /// length of a tendon.
     struct Actuator {
+        /// A force at the origin of a link and a torque on it, each times (gain·u + constant), along the axes of a
+        /// link or of the world (−1); `against` is the link that bears the opposite torque, if there is one.
+        struct Wrench {
+            int link, force_axes = -1, torque_axes = -1, against = -1;
+            Real3 force = Real3::Zero(), torque = Real3::Zero();
+        };
         std::string name;
         int joint, tendon = -1;
         double gear = 1, gain = 1, constant = 0, along = 0, rate = 0;
+        std::optional<Wrench> wrench = {};  ///< in place of what acts along q or a length
         bool acts_alone() const { return constant != 0 || along != 0 || rate != 0; }
+    };
+    /// A state that the file names: coordinates and rates by joint, controls by motor. Positions of joints with
+    /// one coordinate count from the pose of the file; a turn in space is a quaternion, scalar first, and its rate
+    /// the angular velocity along the child.
+    struct Keyframe {
+        std::string name;
+        std::vector<std::vector<double>> position = {}, rate = {};  ///< for each joint
+        std::vector<double> control = {};                           ///< for each motor of the file
     };
     /// Whether the motion of the scene differs from that of the robot without it: `driven` where inputs for motors
     /// are added.
@@ -149,14 +170,18 @@ struct Robot {
     std::vector<Coupling> couplings;
     std::vector<Tendon> tendons;
     std::optional<std::vector<Actuator>> actuators;  ///< if the format has them
+    std::vector<Keyframe> keyframes;
     Real3 gravity{0, 0, -9.81};
     bool has_world = false;  ///< whether the root is the ground, so that the file says what floats
     std::vector<Dropped> dropped;
-    std::vector<Diagnostic> remarks;  ///< what was completed or is unusual, with its place
+    /// What was completed or is unusual, with its place; of the kind "version" what another version of the program
+    /// to which the file belongs takes otherwise.
+    std::vector<Diagnostic> remarks;
 };
 
 /// Angles of joints that are right angles written with few digits, as 1.5708 or 3.1415: a multiple of π/2, rounded
-/// or cut off to at least two decimals. Returns how many there are, and makes them exact if `mend` is true.
+/// or cut off to at least two decimals. Returns how many there are; if `mend` is true, makes them exact,
+/// and with them those by which the axes of inertias are turned.
 int rounded_right_angles(Robot& robot, bool mend);
 
 /// The format is told by the outermost element: <robot>, <mujoco> or <sdf>. Throws SceneError if the file is none

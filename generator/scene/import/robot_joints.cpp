@@ -45,13 +45,13 @@ std::string axis_lines(Robot::Type type, const Real3& axis, double pitch) {
 }  // namespace
 
 std::string SceneWriter::coordinate(const Robot::Joint* of, const std::string& name, const std::string& unit,
-                                    const std::string& about, double initial) {
+                                    const std::string& about, double initial, double rate) {
     result_.coordinates.push_back(name);
     result_.coordinates_of[of == nullptr ? "floating_base" : of->name].push_back(name);
     const std::string rest = about.empty() ? "" : fmt::format(", about = \"{}\"", about);
     const bool guess = all_guessed_ || (of != nullptr && guessed_.contains(static_cast<int>(index(*of))));
-    return fmt::format("{} = {{ {} = {}, {} = 0{}{} }}", scene_key(name), guess ? "guess" : "initial",
-                       scene_number(initial), guess ? "rate_guess" : "rate",
+    return fmt::format("{} = {{ {} = {}, {} = {}{}{} }}", scene_key(name), guess ? "guess" : "initial",
+                       scene_number(initial), guess ? "rate_guess" : "rate", scene_number(rate),
                        unit.empty() ? "" : fmt::format(", unit = \"{}\"", unit), rest);
 }
 
@@ -74,24 +74,83 @@ void SceneWriter::choose_starts() {
             starts_[static_cast<std::size_t>(c.joint)] = value;
             guessed_.insert(c.joint);
         }
-    all_guessed_ = !guessed_.empty() && !robot_.loops.empty();
+    start_at_keyframe();
+    all_guessed_ = (!guessed_.empty() && !robot_.loops.empty()) || options_.guesses ||
+                   (keyframe_ != nullptr && !(robot_.loops.empty() && robot_.couplings.empty()));
+}
+
+void SceneWriter::start_at_keyframe() {
+    std::vector<std::string> names;
+    for (const Robot::Keyframe& key : robot_.keyframes) {
+        names.push_back(key.name);
+        if (key.name == options_.keyframe) keyframe_ = &key;
+    }
+    if (options_.keyframe.empty()) {
+        if (!names.empty())
+            result_.notes.push_back(
+                say("the scene starts in the reference pose; --keyframe NAME starts in a state "
+                    "that the file names: {}",
+                    fmt::join(names, ", ")));
+        return;
+    }
+    if (keyframe_ == nullptr)
+        throw ModelError(names.empty() ? say("the robot names no state; --keyframe needs a <key> of <keyframe>")
+                                       : say("the robot has no state {}; expected one of: {}",
+                                             in_quotes(options_.keyframe), fmt::join(names, ", ")));
+    for (std::size_t k = 0; k < robot_.joints.size(); ++k)
+        if (const auto& q = keyframe_->position[k]; q.size() == 1 && !std::isnan(q[0])) starts_[k] = q[0];
+}
+
+RobotPose SceneWriter::start_of(const Robot::Joint& joint) const {
+    if (keyframe_ == nullptr) return joint.start;
+    const std::vector<double>& q = keyframe_->position[index(joint)];
+    if (q.size() < 4 || std::isnan(q[0])) return joint.start;
+    const std::size_t e = q.size() - 4;
+    const Eigen::Quaterniond turn(q[e], q[e + 1], q[e + 2], q[e + 3]);
+    if (turn.norm() == 0) return joint.start;
+    RobotPlace place{Real3::Zero(), turn.normalized().toRotationMatrix()};
+    if (e > 0) place.shift = {q[0], q[1], q[2]};
+    return place.pose();
+}
+
+std::vector<double> SceneWriter::rates_of(const Robot::Joint* of, const RobotPose& start) const {
+    std::vector<double> u(6, 0);
+    if (keyframe_ != nullptr && of != nullptr) u = keyframe_->rate[index(*of)];
+    for (double& x : u)
+        if (std::isnan(x)) x = 0;
+    if (u.size() < 3) return u;
+    const Real3 w(u[u.size() - 3], u[u.size() - 2], u[u.size() - 1]);  // along the child
+    u.resize(u.size() - 3);
+    if (options_.quaternion) {
+        const Eigen::Quaterniond e(start.rotation()),
+            rate = e * Eigen::Quaterniond(0, w[0] / 2, w[1] / 2, w[2] / 2);
+        for (const double x : {rate.w(), rate.x(), rate.y(), rate.z()}) u.push_back(x + 0.0);
+        return u;
+    }
+    const double roll = start.rpy[0], pitch = start.rpy[1];
+    const double yaw_rate = (w[1] * std::sin(roll) + w[2] * std::cos(roll)) / std::cos(pitch);
+    u.insert(u.end(),
+             {yaw_rate, w[1] * std::cos(roll) - w[2] * std::sin(roll), w[0] + yaw_rate * std::sin(pitch)});
+    return u;
 }
 
 /// The coordinates of a turn in space.
 std::vector<std::string> SceneWriter::turning(const Robot::Joint* of, const std::string& name,
                                               const RobotPose& start) {
     std::vector<std::string> list;
+    const std::vector<double> rates = rates_of(of, start);
+    const std::size_t first = rates.size() - (options_.quaternion ? 4 : 3);
     if (options_.quaternion) {
         const Eigen::Quaterniond e(start.rotation());
         const double component[] = {e.w(), e.x(), e.y(), e.z()};
         for (int k = 0; k < 4; ++k)
-            list.push_back(
-                coordinate(of, values_.given(fmt::format("{}_e{}", name, k)), "", "", component[k] + 0.0));
+            list.push_back(coordinate(of, values_.given(fmt::format("{}_e{}", name, k)), "", "",
+                                      component[k] + 0.0, rates[first + static_cast<std::size_t>(k)]));
     } else {
         for (int k = 2; k >= 0; --k)
             list.push_back(
                 coordinate(of, values_.given(fmt::format("{}_{}", name, std::array{"roll", "pitch", "yaw"}[k])),
-                           "rad", "", start.rpy[k]));
+                           "rad", "", start.rpy[k], rates[first + static_cast<std::size_t>(2 - k)]));
     }
     return list;
 }
@@ -110,9 +169,11 @@ void SceneWriter::joint_table(const std::string& name, const std::string& type, 
 void SceneWriter::free_joint(const Robot::Joint* joint, const std::string& own, const std::string& name,
                              const Group& child, const Stand& parent, const RobotPose& start) {
     std::vector<std::string> list, shifts;
+    const std::vector<double> rates = rates_of(joint, start);
     for (int k = 0; k < 3; ++k) {
         shifts.push_back(values_.given(fmt::format("{}_{}", name, "xyz"[k])));
-        list.push_back(coordinate(joint, shifts.back(), "m", "", start.shift[k]));
+        list.push_back(
+            coordinate(joint, shifts.back(), "m", "", start.shift[k], rates[static_cast<std::size_t>(k)]));
     }
     for (std::string& one : turning(joint, name, start)) list.push_back(std::move(one));
     joint_table(own, "free", parent, {&child, -child.centre, {}},
@@ -125,7 +186,7 @@ void SceneWriter::mover(const Robot::Joint& joint, const Group& child) {
     body(child);
     const Stand at = stand(joint.parent, joint.at);
     if (joint.type == Robot::Type::floating)
-        free_joint(&joint, joint_names_[index(joint)], joint.name, child, at, joint.start);
+        free_joint(&joint, joint_names_[index(joint)], joint.name, child, at, start_of(joint));
     else if (has_axis(joint.type))
         hinge(joint, child, at);
     else
@@ -148,7 +209,7 @@ void SceneWriter::hinge(const Robot::Joint& joint, const Group& child, const Sta
     }
     joint_table(joint_names_[index(joint)], joint_word(joint.type), at, {&child, -child.centre, {}},
                 fmt::format("{}coordinates = {{ {} }}\n{}", axis_lines(joint.type, joint.axis, joint.pitch),
-                            coordinate(&joint, q, slides ? "m" : "rad", about, initial),
+                            coordinate(&joint, q, slides ? "m" : "rad", about, initial, rates_of(&joint, {})[0]),
                             joint.armature == 0 ? ""
                                                 : fmt::format("armature = {{ {} = {} }}\n", scene_key(q),
                                                               scene_number(joint.armature))));
@@ -168,7 +229,7 @@ void SceneWriter::several(const Robot::Joint& joint, const Group& child, Stand a
         list.push_back(coordinate(&joint, values_.given(joint.name + name), unit));
     };
     if (joint.type == Robot::Type::spherical) {
-        list = turning(&joint, joint.name, {});
+        list = turning(&joint, joint.name, start_of(joint));
     } else if (joint.type == Robot::Type::universal) {
         for (const char* k : {"_1", "_2"}) one(k, "rad");
     } else {
@@ -202,7 +263,7 @@ void SceneWriter::follower(const Robot::Joint& joint, Group& child) {
     const std::string& parent = at.parent->frame;
     if (!slides) at.rotate.push_back(fmt::format("[{}, \"{}\"]", scene_axis(joint.axis), position));
     child.frame = places_.given(child.name + "_frame");
-    const std::string from = at.parent->ground ? "O" : at.parent->name;
+    const std::string& from = at.parent->centre_name;
     std::string pivot = places_.given(joint.name);
     result_.text += fmt::format("\n# {}\n[[frame]]\nname = \"{}\"\nparent = \"{}\"\n",
                                 moves ? fmt::format("{} moves with {}", escaped(joint.name), leader)

@@ -55,10 +55,60 @@ void SceneWriter::drive(const Robot::Joint& joint, const std::string& q, bool sl
     result_.drives.push_back(name);
 }
 
+/// Adds the input of a motor, and returns its name.
+std::string SceneWriter::control_of(const Robot::Actuator& motor, double value) {
+    const std::string input = values_.given("drive_" + motor.name);
+    inputs_ += fmt::format("{} = {}\n", scene_key(input), scene_number(std::isnan(value) ? 0 : value));
+    result_.drives.push_back(input);
+    return input;
+}
+
+/// Adds the force and the torque of a motor on a body; false if it moves no mass.
+bool SceneWriter::push_with(const Robot::Actuator& motor, double control) {
+    const Robot::Actuator::Wrench& w = *motor.wrench;
+    const auto group_of = [&](int link) -> const Group& {
+        return groups_[static_cast<std::size_t>(seat(link).group)];
+    };
+    const Group& on = group_of(w.link);
+    if (on.ground || !on.kept) return false;
+    const std::string input = control_of(motor, control);
+    const auto name_of = [&](int link) {
+        const std::string& own = link_names_[static_cast<std::size_t>(link)];
+        return own.empty() ? group_of(link).frame : own;
+    };
+    const auto along = [&](const Real3& v, int axes) {
+        std::array<std::string, 3> sum;
+        for (int k = 0; k < 3; ++k) {
+            std::string& one = sum[static_cast<std::size_t>(k)];
+            add_term(one, v[k] * motor.gain, input);
+            add_term(one, v[k] * motor.constant, "");
+            one = one.empty() ? "0" : scene_text(one);
+        }
+        return fmt::format("vector = [{}]\n{}", fmt::join(sum, ", "),
+                           axes < 0 ? "" : fmt::format("axes = \"{}\"\n", name_of(axes)));
+    };
+    if (!w.force.isZero(0))
+        points_ += fmt::format("\n# {}\n[[force]]\nat = \"{}\"\n{}", escaped(motor.name, 200),
+                               point_of(w.link, Real3::Zero(), motor.name), along(w.force, w.force_axes));
+    const bool bears = w.against >= 0 && !group_of(w.against).ground && group_of(w.against).kept;
+    if (!w.torque.isZero(0))
+        points_ += fmt::format("\n# {}\n[[torque]]\non = \"{}\"\n{}{}", escaped(motor.name, 200), on.frame,
+                               along(w.torque, w.torque_axes),
+                               bears ? fmt::format("reaction = \"{}\"\n", group_of(w.against).frame) : "");
+    return true;
+}
+
 /// Adds an input for each motor, its control, and the force that follows from it.
 void SceneWriter::actuators() {
     std::vector<std::string> without_mass;
-    for (const Robot::Actuator& motor : *robot_.actuators) {
+    const auto& all = *robot_.actuators;
+    for (const Robot::Actuator& motor : all) {
+        const double control =
+            keyframe_ == nullptr ? 0 : keyframe_->control[static_cast<std::size_t>(&motor - all.data())];
+        if (motor.wrench) {
+            if (!push_with(motor, control)) without_mass.push_back(motor.name);
+            continue;
+        }
         const bool pulls = motor.tendon >= 0;
         const auto of = static_cast<std::size_t>(pulls ? motor.tendon : motor.joint);
         const std::string& along = pulls ? lengths_[of] : values_of_[of];
@@ -66,8 +116,7 @@ void SceneWriter::actuators() {
             without_mass.push_back(motor.name);
             continue;
         }
-        const std::string input = values_.given("drive_" + motor.name);
-        inputs_ += fmt::format("{} = 0\n", scene_key(input));
+        const std::string input = control_of(motor, control);
         const double g = motor.gear;
         const auto push = [&](const std::string& q, double factor) {
             auto force = std::find_if(forces_.begin(), forces_.end(), [&](const auto& f) { return f.first == q; });
@@ -83,7 +132,6 @@ void SceneWriter::actuators() {
         if (pulls)
             for (const Robot::Tendon::Term& term : robot_.tendons[of].terms)
                 push(values_of_[static_cast<std::size_t>(term.joint)], term.coefficient);
-        result_.drives.push_back(input);
     }
     drop(say("motors of joints that move no mass"), without_mass);
 }

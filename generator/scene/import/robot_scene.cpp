@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include "base/language/say.hpp"
 #include "scene/import/scene_writer.hpp"
@@ -13,6 +15,16 @@
 namespace alembert {
 
 namespace {
+
+/// a − b; 0 where only the rounding of sums is left, such as 0.1 + 0.2 − 0.3.
+Real3 difference(const Real3& a, const Real3& b) {
+    constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();
+    Real3 result = a - b;
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(result[k]) <= rounded * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()))
+            result[k] = 0;
+    return result;
+}
 
 constexpr const char* base = "floating_base";  // the name of the joint of a floating root
 
@@ -29,7 +41,8 @@ SceneWriter::SceneWriter(const Robot& robot, const RobotSceneOptions& options) :
         result_.notes.push_back(
             say("--floating is for URDF, in which nothing says what floats; here the file says it"));
     }
-    WeldedLinks links = welded(robot, options_.floating);
+    WeldedLinks links = welded(robot, options_.floating, options_.mend_inertia);
+    for (std::string& one : links.mended) result_.notes.push_back(std::move(one));
     for (WeldedBody& body : links.bodies) groups_.push_back({std::move(body)});
     seats_ = std::move(links.seats);
     result_.merged = std::move(links.merged);
@@ -108,6 +121,9 @@ void SceneWriter::name_all() {
         for (const int i : group.links)
             if (!group.ground && group.kept && i != group.top)
                 link_names_[static_cast<std::size_t>(i)] = named(places_, link(i).name);
+    for (Group& group : groups_)
+        if (!group.ground && group.kept)
+            group.centre_name = group.centre.isZero(0) ? group.name : places_.given(group.name + "_centre");
 }
 
 void SceneWriter::head() {
@@ -122,16 +138,21 @@ void SceneWriter::body(const Group& g, const std::string& placing) {
     for (const int i : g.links)
         if (i != g.top) held += (held.empty() ? "\n# with " : ", ") + escaped(link(i).name, 200);
     result_.text += fmt::format(
-        "{}\n[[body]]\nname = \"{}\"\nmass = {}\n{}inertia = {{ xx = {}, yy = {}, zz = {}, xy = {}, yz = {}, "
+        "{}\n[[body]]\nname = \"{}\"\n{}mass = {}\n{}inertia = {{ xx = {}, yy = {}, zz = {}, xy = {}, yz = {}, "
         "zx = {} }}\n",
-        held, g.name, scene_number(g.mass), placing, scene_number(I(0, 0)), scene_number(I(1, 1)),
-        scene_number(I(2, 2)), scene_number(I(0, 1)), scene_number(I(1, 2)), scene_number(I(2, 0)));
+        held, g.name, g.centre_name == g.name ? "" : fmt::format("centre = \"{}\"\n", g.centre_name),
+        scene_number(g.mass), placing, scene_number(I(0, 0)), scene_number(I(1, 1)), scene_number(I(2, 2)),
+        scene_number(I(0, 1)), scene_number(I(1, 2)), scene_number(I(2, 0)));
     ++result_.bodies;
 }
 
-/// Adds a frame and a point of the same name for each link that is fixed to the body's own.
+/// Adds a frame and a point of the same name for each link that is fixed to the body's own, and for that one the
+/// point alone, its origin, if the mass centre is elsewhere.
 void SceneWriter::mounted(const Group& group) {
     if (group.ground || !group.kept) return;
+    if (group.centre_name != group.name)
+        result_.text += fmt::format("\n[[point]]\nname = \"{}\"\nfrom = \"{}\"\noffset = {}\naxes = \"{}\"\n",
+                                    group.name, group.centre_name, scene_vector(-group.centre), group.frame);
     for (const int i : group.links) {
         if (i == group.top) continue;
         const std::string& name = link_names_[static_cast<std::size_t>(i)];
@@ -140,7 +161,8 @@ void SceneWriter::mounted(const Group& group) {
         result_.text += fmt::format(
             "\n[[frame]]\nname = \"{0}\"\nparent = \"{1}\"\nrotate = {2}\n\n[[point]]\nname = \"{0}\"\nfrom = "
             "\"{3}\"\noffset = {4}\naxes = \"{1}\"\n",
-            name, group.frame, scene_list(rotate), group.name, scene_vector(seat(i).shift - group.centre));
+            name, group.frame, scene_list(rotate), group.centre_name,
+            scene_vector(difference(seat(i).shift, group.centre)));
         result_.frames.push_back(name);
     }
 }
@@ -204,7 +226,7 @@ SceneWriter::Stand SceneWriter::stand(int of, const RobotPose& at) const {
     Stand result{.parent = &groups_[static_cast<std::size_t>(own.group)],
                  .point = own.shift + own.R * at.shift,
                  .rotate = turns_of(own)};
-    if (!result.parent->ground) result.point -= result.parent->centre;
+    if (!result.parent->ground) result.point = difference(result.point, result.parent->centre);
     add_turns(result.rotate, at.rpy);
     return result;
 }

@@ -6,11 +6,12 @@
 ///     const RobotScene scene = robot_scene(read_robot("arm.urdf"), {.source = "arm.urdf"});
 ///
 /// Links that are connected by fixed joints become one body, with the name and the frame of the one nearest to the
-/// root; the others become a frame and a point of their name. Links that are fixed to the root belong to the
-/// ground, unless the root floats. Joints keep their names, which their coordinates have too (a floating joint's
-/// with _x, _y, _z and _yaw, _pitch, _roll, or _e0 … _e3). A joint that mimics another has no coordinate: the
-/// frame of its body turns, or its point is shifted, by factor · coordinate + offset. Branches without moving mass
-/// are left out.
+/// root; its mass centre has a name of its own, NAME_centre, if it is not the origin of that link. The others
+/// become a frame and a point of their name, and a point of the name of each link is its origin. Links that are
+/// fixed to the root belong to the ground, unless the root floats. Joints keep their names, which their
+/// coordinates have too (a floating joint's with _x, _y, _z and _yaw, _pitch, _roll, or _e0 … _e3). A joint that
+/// mimics another has no coordinate: the frame of its body turns, or its point is shifted, by factor · coordinate
+/// + offset. Branches without moving mass are left out.
 
 #include <map>
 #include <string>
@@ -26,8 +27,11 @@ struct RobotSceneOptions {
     bool quaternion = false;  ///< whether floating joints turn by quaternions
     /// Whether to add an input, a torque or a force, for each independent joint that turns or slides.
     bool drives = false;
-    bool friction = false;  ///< whether to add the Coulomb friction of joints that turn or slide
-    bool stops = false;     ///< whether to add contacts at the limits of joints that turn or slide
+    bool friction = false;      ///< whether to add the Coulomb friction of joints that turn or slide
+    bool mend_inertia = false;  ///< whether an inertia that no body has becomes the nearest one that a body has
+    std::string keyframe = {};  ///< the state of the file in which the scene starts; empty for its reference pose
+    bool guesses = false;       ///< whether all starts may move until loops close
+    bool stops = false;         ///< whether to add contacts at the limits of joints that turn or slide
 };
 
 struct RobotScene {

@@ -28,7 +28,7 @@ void SceneWriter::held(const Group& group) {
     if (!(mass * robot_.gravity).allFinite() || !moment.allFinite())
         throw ModelError(say("the weight of {} is not finite", in_quotes(link(group.top).name)));
     if (mass == 0 && moment.isZero(0)) return;
-    std::string at = group.name;
+    std::string at = group.centre_name;
     if (mass == 0) {
         drop(say("gravity compensation whose forces are a couple"), {link(group.top).name}, Robot::Effect::motion);
         return;
@@ -36,7 +36,7 @@ void SceneWriter::held(const Group& group) {
     if (!all) {
         at = places_.given(group.name + "_held");
         points_ += fmt::format("\n[[point]]\nname = \"{}\"\nfrom = \"{}\"\noffset = {}\naxes = \"{}\"\n", at,
-                               group.name, scene_vector(moment / mass), group.frame);
+                               group.centre_name, scene_vector(moment / mass), group.frame);
     }
     points_ += fmt::format("\n# gravity compensation\n[[force]]\nat = \"{}\"\nvector = {}\n", at,
                            scene_vector(-mass * robot_.gravity));
@@ -61,9 +61,10 @@ std::string SceneWriter::point_of(int of, const Real3& inside, const std::string
     const Group& group = groups_[static_cast<std::size_t>(own.group)];
     if (inside.isZero(0) && !link_names_[static_cast<std::size_t>(of)].empty())
         return link_names_[static_cast<std::size_t>(of)];
+    if (inside.isZero(0) && !group.ground && of == group.top) return group.name;
     Real3 offset = own.shift + own.R * inside;
     if (!group.ground) offset -= group.centre;
-    const std::string from = group.ground ? "O" : group.name;
+    const std::string& from = group.centre_name;
     if (offset.isZero(0)) return from;
     const std::string name = places_.given(wanted);
     points_ += fmt::format("\n[[point]]\nname = \"{}\"\nfrom = \"{}\"\noffset = {}\naxes = \"{}\"\n", name, from,

@@ -24,6 +24,8 @@ private:
     struct Group : WeldedBody {
         std::string name = "N";
         std::string frame = "N";
+        std::string centre_name =
+            "O";  ///< of its mass centre; that of the body where its link has its origin there
     };
     /// A place in a body, relative to its mass centre, and the turns that lead to it.
     struct Stand {
@@ -52,8 +54,12 @@ private:
 
     // robot_joints.cpp
     std::string coordinate(const Robot::Joint* of, const std::string& name, const std::string& unit,
-                           const std::string& about = "", double initial = 0);
+                           const std::string& about = "", double initial = 0, double rate = 0);
     void choose_starts();
+    void start_at_keyframe();
+    RobotPose start_of(const Robot::Joint& joint) const;  ///< of one that turns in space
+    /// The rates of the coordinates of joint `of` in the keyframe; zeros without one.
+    std::vector<double> rates_of(const Robot::Joint* of, const RobotPose& start) const;
     std::vector<std::string> turning(const Robot::Joint* of, const std::string& name, const RobotPose& start);
     void joint_table(const std::string& name, const std::string& type, const Stand& parent, const Stand& child,
                      const std::string& rest);
@@ -72,6 +78,8 @@ private:
     void stops(const Robot::Joint& joint, const std::string& q);
     void drive(const Robot::Joint& joint, const std::string& q, bool slides);
     void actuators();
+    std::string control_of(const Robot::Actuator& motor, double value);
+    bool push_with(const Robot::Actuator& motor, double control);
     void coupling(const Robot::Coupling& coupling);
 
     // robot_tendons.cpp: what acts on several coordinates
@@ -91,6 +99,7 @@ private:
     std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
     std::vector<std::string> link_names_;               // of links that are fixed to others
     std::vector<double> starts_;                        // of those with one coordinate
+    const Robot::Keyframe* keyframe_ = nullptr;         // in which the scene starts
     std::set<int> guessed_;                             // joints whose start may move
     bool all_guessed_ = false;
     std::vector<std::string> lengths_;  // of each tendon in coordinates; empty if it moves no mass

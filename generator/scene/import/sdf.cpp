@@ -312,6 +312,7 @@ private:
                              in_quotes(path)));
         const RobotPlace place{poses_.place(path).shift, poses_.place(to).R};
         Robot::Joint& joint = add_link(to, place, from, short_name(path), type);
+        if (type == Type::fixed) ignore_axis(e);
         if (type == Type::fixed || type == Type::spherical) return;
         const Real33 into = place.R.transpose();
         joint.axis = into * axis(path, backwards && type == Type::universal ? "axis2" : "axis");
@@ -331,6 +332,12 @@ private:
         const double rotor = file_.number_in(e, "drake:rotor_inertia").value_or(0),
                      ratio = file_.number_in(e, "drake:gear_ratio").value_or(1);
         if (type != Type::universal) joint.armature = ratio * ratio * rotor;
+    }
+
+    /// Of a fixed joint, which has no use for it.
+    void ignore_axis(const XmlElement& e) {
+        for (const char* tag : {"axis", "axis2"})
+            if (const XmlElement* const axis = e.FirstChildElement(tag)) file_.ignore(*axis);
     }
 
     void read_axis(const XmlElement& e, Robot::Joint& joint) {
@@ -383,6 +390,7 @@ private:
                          .child = frames_.at(child).link,
                          .at_parent = composed(inverted(frames_.at(parent).place), place).pose(),
                          .at_child = composed(inverted(frames_.at(child).place), place).pose()};
+        if (type == Type::fixed) ignore_axis(*entry(path).element);
         const Real33 into = place.R.transpose();
         if (type != Type::fixed && type != Type::spherical) loop.axis = into * axis(path, "axis");
         if (type == Type::universal) loop.second = into * axis(path, "axis2");

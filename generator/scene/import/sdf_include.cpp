@@ -55,11 +55,12 @@ private:
         const auto refuse = [&](const std::string& why) { file_.refuse(include, why); };
         const std::string uri = inside(include, "uri");
         if (uri.empty()) refuse(say("{} has no <uri>; expected one", shown(include)));
-        if (const char* const merge = include.Attribute("merge");
-            merge != nullptr && std::strcmp(merge, "false") != 0)
-            refuse(say(
-                "<include merge> puts the parts of {} into the model; expected them written out, as by gz sdf -p",
-                in_quotes(uri)));
+        const char* const written = include.Attribute("merge");
+        const bool merge =
+            written != nullptr && std::strcmp(written, "false") != 0 && std::strcmp(written, "0") != 0;
+        if (merge && std::strcmp(around.Name(), "model") != 0)
+            refuse(say("<include merge> of {} stands in no <model>, into which it could put its parts",
+                       in_quotes(uri)));
         const std::string found = NamedFiles(path, others_).model(uri, refuse);
         tinyxml2::XMLDocument other;
         const std::string text = text_of_file(found);
@@ -72,10 +73,80 @@ private:
             keep_axes(copy, has_old_axes(root));
             expand(copy, found, depth + 1);
             override(copy, include);
+            if (merge) this->merge(around, copy);
         } else if (root.FirstChildElement("light") == nullptr && root.FirstChildElement("actor") == nullptr) {
             refuse(say("{} holds no <model>", in_quotes(uri)));
         }
         around.DeleteChild(&include);
+    }
+
+    /// Puts the parts of a model into the one around it, which stand relative to a frame in place of it (the
+    /// proposal of SDF 1.9, "Merge include").
+    void merge(XmlElement& around, XmlElement& model) {
+        const std::string own = model.Attribute("name") == nullptr ? "" : model.Attribute("name");
+        const std::string name = "_merged__" + own + "__model__";
+        XmlElement* const frame = model.GetDocument()->NewElement("frame");
+        frame->SetAttribute("name", name.c_str());
+        around.InsertAfterChild(&model, frame);
+        place_frame(model, *frame);
+        tinyxml2::XMLNode* last = frame;
+        for (XmlElement* part = model.FirstChildElement(); part != nullptr; part = part->NextSiblingElement()) {
+            const std::string tag = part->Name();
+            if (tag == "pose" || tag == "static" || tag == "self_collide" || tag == "allow_auto_disable" ||
+                tag == "enable_wind")
+                continue;
+            XmlElement& moved = *part->DeepClone(model.GetDocument())->ToElement();
+            last = around.InsertAfterChild(last, &moved);
+            stand_in(moved, tag, name);
+        }
+        around.DeleteChild(&model);
+    }
+
+    /// The frame of the model: at its pose, or where that puts the frame that the model is placed by.
+    void place_frame(const XmlElement& model, XmlElement& frame) {
+        if (model.Attribute("placement_frame") != nullptr)
+            file_.refuse(model,
+                         say("a model that is merged is placed by a frame of its own; expected its own pose"));
+        if (const XmlElement* const pose = model.FirstChildElement("pose"))
+            frame.InsertEndChild(pose->DeepClone(frame.GetDocument()));
+    }
+
+    /// What was relative to the model is relative to its frame.
+    static void stand_in(XmlElement& part, const std::string& tag, const std::string& frame) {
+        const auto replaced = [&](XmlElement& e, const char* key) {
+            const char* const given = e.Attribute(key);
+            if (given != nullptr && std::strcmp(given, "__model__") == 0) e.SetAttribute(key, frame.c_str());
+        };
+        if (tag == "link" || tag == "model" || (tag == "frame" && part.Attribute("attached_to") == nullptr)) {
+            XmlElement* pose = part.FirstChildElement("pose");
+            if (pose == nullptr) {
+                pose = part.GetDocument()->NewElement("pose");
+                pose->SetText("0 0 0 0 0 0");
+                part.InsertFirstChild(pose);
+            }
+            if (pose->Attribute("relative_to") == nullptr) pose->SetAttribute("relative_to", frame.c_str());
+        }
+        replaced(part, "attached_to");
+        replace_below(part, frame);
+    }
+
+    static void replace_below(XmlElement& e, const std::string& frame) {
+        for (const char* key : {"relative_to", "expressed_in"})
+            if (const char* const given = e.Attribute(key);
+                given != nullptr && std::strcmp(given, "__model__") == 0)
+                e.SetAttribute(key, frame.c_str());
+        // Axes along the model of an older version.
+        if (std::strcmp(e.Name(), "use_parent_model_frame") == 0 && e.BoolText(false))
+            if (XmlElement* const xyz = e.Parent()->FirstChildElement("xyz")) {
+                xyz->SetAttribute("expressed_in", frame.c_str());
+                e.SetText(false);
+            }
+        for (const char* tag : {"parent", "child"})
+            if (std::strcmp(e.Name(), tag) == 0 && e.GetText() != nullptr &&
+                std::strcmp(e.GetText(), "__model__") == 0)
+                e.SetText(frame.c_str());
+        for (XmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+            replace_below(*child, frame);
     }
 
     /// Writes into the joints along which axes theirs are given, because the outer file may be of another version.

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "alembert/base/inertia.hpp"
 #include "base/language/say.hpp"
@@ -18,7 +20,7 @@ namespace {
 
 class Welder {
 public:
-    Welder(const Robot& robot, bool floating) : robot_(robot), floating_(floating) {}
+    Welder(const Robot& robot, bool floating, bool mend) : robot_(robot), floating_(floating), mend_(mend) {}
 
     WeldedLinks weld() {
         gather();
@@ -92,7 +94,23 @@ private:
         return std::max(part * size, std::abs(group.mass) * micrometre * micrometre);
     }
 
-    void sum_up(WeldedBody& group) const {
+    /// The nearest inertia of real masses: J = tr(I)/2 E − I = ∫ ρ ρᵀ dm has no negative eigenvalue.
+    void mend(WeldedBody& group, double least) {
+        const Real33 J = group.inertia.trace() / 2 * Real33::Identity() - group.inertia;
+        const Eigen::SelfAdjointEigenSolver<Real33> own(J);
+        if (!own.eigenvalues().allFinite() || own.eigenvalues()[0] >= -least) return;
+        const Real3 kept = own.eigenvalues().cwiseMax(0);
+        const Real3 before = principal_axes<double>(group.inertia).moments;
+        group.inertia = kept.sum() * Real33::Identity() -
+                        own.eigenvectors() * kept.asDiagonal() * own.eigenvectors().transpose();
+        const Real3 after = principal_axes<double>(group.inertia).moments;
+        result_.mended.push_back(
+            say("the inertia of link {} is none of a body: its principal moments {:.6g}, {:.6g} and {:.6g} became "
+                "{:.6g}, {:.6g} and {:.6g}",
+                in_quotes(link(group.top).name), before[0], before[1], before[2], after[0], after[1], after[2]));
+    }
+
+    void sum_up(WeldedBody& group) {
         std::vector<int> heavy;
         for (const int i : group.links)
             if (link(i).mass != 0 || !link(i).inertia.isZero(0)) heavy.push_back(i);
@@ -106,12 +124,16 @@ private:
             group.inertia += moved_from_centre<double>(turned<double>(link(i).inertia, seat(i).R), link(i).mass,
                                                        centre(i) - group.centre);
         const double rounding = rounding_of(group, heavy);
+        const double size = group.inertia.cwiseAbs().maxCoeff();
+        group.inertia = group.inertia.unaryExpr(
+            [&](double x) { return std::abs(x) <= 4 * std::numeric_limits<double>::epsilon() * size ? 0 : x; });
         if (group.inertia.cwiseAbs().maxCoeff() <= rounding) group.inertia.setZero();
+        if (mend_ && !group.ground) mend(group, rounding / rounded_moment);
         if (const PrincipalAxes<> own = principal_axes<double>(group.inertia);
             !group.ground && has_negative_moment(own, rounding / rounded_moment))
             throw ModelError(
                 say("link {}{} has the principal moments of inertia {:.6g}, {:.6g} and {:.6g}, which are not all "
-                    "zero or more; no body has them",
+                    "zero or more; no body has them (--mend-inertia takes the nearest that a body has)",
                     in_quotes(link(group.top).name),
                     group.links.size() > 1 ? say(", with all that is fixed to it,") : "", own.moments[0],
                     own.moments[1], own.moments[2]));
@@ -153,14 +175,14 @@ private:
     }
 
     const Robot& robot_;
-    const bool floating_;
+    const bool floating_, mend_;
     WeldedLinks result_;
 };
 
 }  // namespace
 
-WeldedLinks welded(const Robot& robot, bool floating) {
-    return Welder(robot, floating).weld();
+WeldedLinks welded(const Robot& robot, bool floating, bool mend) {
+    return Welder(robot, floating, mend).weld();
 }
 
 }  // namespace alembert

@@ -39,10 +39,13 @@ struct WeldedLinks {
     std::vector<WeldedBody> bodies;       ///< from the root outwards; the first contains the root
     std::vector<Seat> seats;              ///< one for each link
     std::vector<std::string> merged;      ///< one sentence each: "tool is fixed to wrist"
+    std::vector<std::string> mended;      ///< one sentence for each inertia that was changed
     std::vector<Robot::Dropped> dropped;  ///< masses fixed to the ground, joints that move no mass
 };
 
-/// `floating`: the root moves freely in space. Throws ModelError for a body with a negative moment of inertia.
-WeldedLinks welded(const Robot& robot, bool floating);
+/// `floating`: the root moves freely in space. Throws ModelError for a body with a negative moment of inertia,
+/// unless `mend` is true: such a body, and one whose moments break the triangle inequality, then gets the nearest
+/// inertia that masses can have.
+WeldedLinks welded(const Robot& robot, bool floating, bool mend = false);
 
 }  // namespace alembert

@@ -41,7 +41,9 @@ public:
     /// Its line; of an element from another file, or made by a rule, that of the element around it.
     static Place place_of(const XmlElement& e);
     [[noreturn]] void refuse(const XmlElement& e, const std::string& why) const;
-    void remark(const XmlElement& e, const std::string& what) { remarks_.push_back({place_of(e), what}); }
+    void remark(const XmlElement& e, const std::string& what, const std::string& kind = "") {
+        remarks_.push_back({place_of(e), what, Severity::warning, kind});
+    }
     const std::vector<Diagnostic>& remarks() const { return remarks_; }
 
     /// An attribute without blanks around it; nothing if it is missing.

@@ -20,6 +20,7 @@
 #include "scene/text.hpp"
 #include "simulate/evaluate.hpp"
 #include "simulate/given_accelerations.hpp"
+#include "simulate/given_inputs.hpp"
 #include "simulate/kinematics/frames.hpp"
 #include "simulate/kinematics/points.hpp"
 
@@ -184,7 +185,9 @@ void find_jacobians(SceneKinematics& s, const State<double>& state) {
 
 }  // namespace
 
-SceneKinematics kinematics(Scene scene, const KinematicsOptions& options) {
+SceneKinematics kinematics(Scene scene, const KinematicsOptions& wishes) {
+    KinematicsOptions options = wishes;
+    options.at = with_inputs_given(scene, wishes.at);
     const Overrides at = without_accelerations(options.at);
     SceneKinematics s{prepared(std::move(scene), at, false, Coordinates::optional)};
     check_names(options.of, s.scene);

@@ -13,7 +13,7 @@ std::vector<std::string> points_and_masses(const Scene& scene) {
     std::vector<std::string> names;
     for (const Point& p : scene.points) names.push_back(p.name.text);
     for (const Particle& p : scene.particles) names.push_back(p.name.text);
-    for (const Body& b : scene.bodies) names.push_back(b.name.text);
+    for (const Body& b : scene.bodies) names.push_back(b.point().text);
     return names;
 }
 
@@ -31,12 +31,14 @@ const Position* PointWriter::place_of(const std::string& name) const {
     };
     if (const Position* place = find(scene_.points)) return place;
     if (const Position* place = find(scene_.particles)) return place;
-    return joint_of(name) == nullptr ? find(scene_.bodies) : nullptr;
+    for (const Body& body : scene_.bodies)
+        if (body.point().text == name) return body.joint ? nullptr : &body.position;
+    return nullptr;
 }
 
 const Joint* PointWriter::joint_of(const std::string& name) const {
     for (const Body& body : scene_.bodies)
-        if (body.name.text == name && body.joint) return &scene_.joints[*body.joint];
+        if (body.point().text == name && body.joint) return &scene_.joints[*body.joint];
     return nullptr;
 }
 
@@ -89,7 +91,7 @@ PointKinematics PointWriter::operator()(const std::string& name, bool steps) {
     } else {
         const Joint& joint = *joint_of(name);
         const std::string& inner = (*joint.places_child ? joint.parent : joint.child).body.text;
-        p.from = inner == "N" ? "O" : inner;
+        p.from = places_.centre_of(inner);
     }
     const Moving fixed = along_N(name);
     p.position.along_N = write_(fixed.r);

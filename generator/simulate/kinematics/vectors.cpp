@@ -8,6 +8,8 @@ using GiNaC::ex;
 namespace {
 
 constexpr std::size_t most_terms_shown = 40;
+/// In a scene with more formulas than these that are too long, others are sought with less effort.
+constexpr int most_long_ones = 30;
 
 }  // namespace
 
@@ -27,8 +29,11 @@ KinematicVector VectorWriter::derivative(const Vector3& v, const KinematicVector
 }
 
 std::optional<Phrase> VectorWriter::formula(const ex& e) const {
-    const auto f = steps_.normal(e);
-    if (!f || f->size() > most_terms_shown) return std::nullopt;
+    const auto f = long_ones_ < most_long_ones ? steps_.normal(e) : steps_.normal(e, 1);
+    if (!f || f->size() > most_terms_shown) {
+        ++long_ones_;
+        return std::nullopt;
+    }
     return readable(*f);
 }
 

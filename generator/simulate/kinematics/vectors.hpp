@@ -42,6 +42,7 @@ private:
     const Mechanism& m_;
     StepWriter steps_;
     UnitQuaternions unit_;
+    mutable int long_ones_ = 0;  ///< formulas sought in vain
 };
 
 }  // namespace alembert

@@ -223,6 +223,7 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     for (int i = 0; i < result.mechanism.size(); ++i)
         if (!problem.essential()[i]) result.cyclic.push_back(result.mechanism.q[i].get_name());
     const EnergyRate energy = energy_rate(result.mechanism, problem, start.parameters);
+    const Program constraints = lower_constraints(result.mechanism);
     const auto add = [&](const FoundRoot& root) {
         Equilibrium one{.start = problem.start_at(start, root.at),
                         .moving = {},
@@ -230,7 +231,8 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
                         .family = root.family,
                         .multipliers = multipliers_at(problem, root.at),
                         .judgement = judge(problem, energy, root.at)};
-        if (penetrates(result, one.start)) return;
+        if (penetrates(result, one.start) || turned_joint(result.mechanism, constraints, one.start.state()))
+            return;
         // Coordinates that are cyclic, or moved by a constraint, from rest too.
         const VectorOf<long double> udot = problem.linearized_at(root.at, root.at.u).tangent.udot;
         for (int i = 0; i < result.mechanism.size(); ++i)

@@ -25,6 +25,10 @@ inline constexpr double closed_gap = 1e-9;
 /// rank that is decided from values that obey the constraints to `initial_values` cannot be known better.
 inline constexpr double dependent_row = 1e-9;
 
+/// A row of a joint that closes a loop counts as one that follows from others, and is left out and told, if what
+/// they do not explain is below this times the size of such rows. Exports of CAD turn frames by 1e-16 to 1e-7 rad.
+inline constexpr double nearly_dependent_row = 1e-6;
+
 /// A row has vanished at a pose if its size is below this times that of the whole matrix: this allows for a few
 /// hundred rounding errors of terms that cancel.
 inline constexpr double vanished_row = 1e-13;

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// What most likely is not meant is told or refused, at its place; the same scene said rightly is silent.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "files.hpp"
+#include "json.hpp"
+#include "program.hpp"
+
+namespace commands_told {
+
+using alembert::test::Json;
+using alembert::test::json_of;
+using alembert::test::run;
+using alembert::test::temporary;
+
+namespace {
+
+/// A mass of 2 kg on a line, with what is added.
+std::string on_line(const std::string& more) {
+    return temporary(
+        "line.toml",
+        "[coordinates]\nx = { initial = 1, rate = 0.5, unit = \"m\" }\n[parameters]\nm = { value = 2, unit "
+        "= \"kg\" }\nk = { value = 3, unit = \"N/m\" }\nl = { value = 0.4, unit = \"m\" }\nc = { value = "
+        "0.1, unit = \"N*s/m\" }\nF = { value = 1, unit = \"N\" }\n[[particle]]\nname = \"p\"\nmass = "
+        "\"m\"\nposition = [\"x\", 0]\n" +
+            more);
+}
+
+int warnings(const std::string& scene, const std::string& kind) {
+    int count = 0;
+    const Json found = json_of({"eval", scene});
+    for (const Json& one : found["warnings"]) count += one["kind"] == kind;
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "told: units of springs and dampers along a coordinate, impulses, normal forces and contacts are looked at") {
+    const struct {
+        std::string right, wrong;
+    } cases[] = {
+        {"[[spring]]\nalong = \"x\"\nstiffness = \"k\"\nlength = \"l\"\n",
+         "[[spring]]\nalong = \"x\"\nstiffness = \"m\"\nlength = \"l\"\n"},
+        {"[[spring]]\nalong = \"x - l\"\nstiffness = \"k\"\n",
+         "[[spring]]\nalong = \"x\"\nstiffness = \"k\"\nlength = \"m\"\n"},
+        {"[[damper]]\nalong = \"x\"\ndamping = \"c\"\n", "[[damper]]\nalong = \"x\"\ndamping = \"k\"\n"},
+        {"[[impulse]]\nat = \"p\"\nvector = [\"c*l\", 0]\n", "[[impulse]]\nat = \"p\"\nvector = [\"F\", 0]\n"},
+        {"[[friction]]\nname = \"f\"\ncoefficient = 0.2\nslip = \"x'\"\nnormal = \"F\"\n",
+         "[[friction]]\nname = \"f\"\ncoefficient = 0.2\nslip = \"x'\"\nnormal = \"m\"\n"},
+    };
+    for (const auto& [right, wrong] : cases) {
+        CAPTURE(wrong);
+        CHECK(warnings(on_line(right), "unit_mismatch") == 0);
+        CHECK(warnings(on_line(wrong), "unit_mismatch") == 1);
+    }
+}
+
+TEST_CASE("told: a force at a constant distance along N from a body that turns is at no place of the body") {
+    const auto body = [](const std::string& axes, const std::string& from) {
+        return temporary("body.toml", fmt::format(R"([coordinates]
+x = 0.3
+a = 0.4
+[[frame]]
+name = "A"
+rotate = [["z", "a"]]
+[[body]]
+name = "b"
+mass = 2
+inertia = 3
+frame = "A"
+position = ["x", 0]
+[[point]]
+name = "P"
+{}
+axes = "{}"
+[[force]]
+at = "P"
+vector = [2, 5]
+)",
+                                                  from, axes));
+    };
+    CHECK(warnings(body("N", "offset = [\"x\", 0.5]"), "moving_place") == 1);
+    CHECK(warnings(body("N", "from = \"b\"\noffset = [0, 0.5]"), "moving_place") == 1);
+    CHECK(warnings(body("A", "from = \"b\"\noffset = [0, 0.5]"), "moving_place") == 0);
+    CHECK(warnings(body("N", "from = \"b\"\noffset = [0, 0]"), "moving_place") == 0);
+    CHECK(warnings(body("N", "offset = [1, 2]"), "moving_place") == 0);
+}
+
+TEST_CASE("told: negative normal forces and sizes, rotations in degrees, names of columns and of rows left out") {
+    const auto negative =
+        run({"eval", on_line("[[friction]]\nname = \"f\"\ncoefficient = 1\nslip = \"x'\"\nnormal = -1\n")});
+    CHECK(negative.exit == 4);
+    CHECK(negative.err.find("the normal force of friction 'f' is -1") != std::string::npos);
+    const auto disc = [](const std::string& size) {
+        return temporary(
+            "disc.toml",
+            "[coordinates]\na = 0\n[[frame]]\nname = \"A\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname "
+            "= \"b\"\nmass = 3\nframe = \"A\"\nposition = [0, 0]\nshape = " +
+                size + "\ninertia = \"from shape\"\n");
+    };
+    CHECK(run({"eval", disc("{ disc = 2 }")}).exit == 0);
+    const auto small = run({"eval", disc("{ disc = -2 }")});
+    CHECK(small.exit == 3);
+    CHECK(small.err.find("disc.toml:11:11: a size of 'disc' is -2") != std::string::npos);
+    CHECK(run({"eval", disc("{ box = [1, -1, 1] }")}).exit == 3);
+    const std::string frame =
+        "[[frame]]\nname = \"A\"\nrotate = [[\"z\", {}]]\n[outputs]\no = \"dot(ex(A), ey(N))\"\n";
+    CHECK(warnings(on_line(fmt::format(fmt::runtime(frame), "90")), "suspicious_number") == 1);
+    CHECK(warnings(on_line(fmt::format(fmt::runtime(frame), "\"90 deg\"")), "suspicious_number") == 0);
+    CHECK(warnings(on_line(fmt::format(fmt::runtime(frame), "1.2")), "suspicious_number") == 0);
+    for (const char* name : {"t", "x", "energy"})
+        CHECK(run({"eval", on_line(fmt::format("[outputs]\n{} = 1\n", name))}).exit == 3);
+    CHECK(run({"eval", on_line("[outputs]\nE = 1\n")}).exit == 0);
+    // A linear spring on a line has |x| in it, which nobody wrote.
+    CHECK(warnings(on_line("[[spring]]\nbetween = [\"O\", \"p\"]\nstiffness = \"k\"\nlength = \"l\"\n"),
+                   "quotient_of_size") == 0);
+    CHECK(warnings(on_line("[forces]\nx = \"-F*x/abs(x)\"\n"), "quotient_of_size") == 1);
+    const auto wheel = [](const char* row) {
+        return temporary("wheel.toml", fmt::format(R"(gravity = [0, -10]
+[coordinates]
+x = {{ rate = 1 }}
+phi = {{ rate = -2 }}
+[[frame]]
+name = "A"
+rotate = [["z", "phi"]]
+[[body]]
+name = "b"
+mass = 2
+frame = "A"
+inertia = 1
+position = ["x", 0.5]
+[[rolling]]
+name = "w"
+body = "b"
+contact = [0, -0.5]
+[outputs]
+o = "lambda_w_{}"
+)",
+                                                   row));
+    };
+    CHECK(run({"eval", wheel("x")}).exit == 0);
+    const auto left_out = run({"eval", wheel("y")});
+    CHECK(left_out.exit == 3);
+    CHECK(left_out.err.find("wheel.toml:19:6: there is no 'lambda_w_y'") != std::string::npos);
+}
+
+TEST_CASE(
+    "told: a motion of a joint stands where the file has it, and one whose name says another place is refused") {
+    const auto planar = [](const std::string& lines) {
+        return temporary(
+            "planar.toml",
+            "[[body]]\nname = \"B\"\nmass = 3\ninertia = [1, 1, 1]\n[[joint]]\nname = \"j\"\nparent = "
+            "\"N\"\nchild = \"B\"\ntype = \"planar\"\n" +
+                lines + "\n[outputs]\noy = \"dot(pos(B), ey(N))\"\n");
+    };
+    const auto refused = run({"eval", planar("coordinates = { x = 0.1, phi = 0.2 }\nmotion = { y = \"0.7\" }")});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find(
+              "'y' is an angle here; write the prescribed one in 'coordinates' too, at its place: y = 0") !=
+          std::string::npos);
+    CHECK(run({"eval", planar("motion = { y = \"0.7\" }\ncoordinates = { x = 0.1, phi = 0.2 }")}).exit == 3);
+    const Json right =
+        json_of({"eval", planar("coordinates = { x = 0.1, y = 0, phi = 0.2 }\nmotion = { y = \"0.7\" }")});
+    CHECK(right["outputs"]["oy"] == 0.7);
+    CHECK(run({"eval", planar("coordinates = { x = 0.1, y = 0.2 }\nmotion = { phi = \"0.7\" }")}).exit == 0);
+    CHECK(run({"eval", planar("coordinates = { u = 0.1, w = 0.2 }\nmotion = { v = \"0.7\" }")}).exit == 0);
+}
+
+TEST_CASE("told: an input takes a value at a state, and its derivatives are zero") {
+    const std::string scene = on_line("[inputs]\nu = \"2*t\"\n[forces]\nx = \"u + u'\"\n");
+    CHECK(json_of({"eval", scene})["accelerations"]["x"] == 1);
+    CHECK(json_of({"eval", scene, "--at", "u=5"})["accelerations"]["x"] == 2.5);
+    CHECK(std::abs(json_of({"eval", scene, "--inverse", "--at", "u=5", "x''=1"})["loads"]["x"].get<double>() + 3) <
+          1e-14);
+    CHECK(run({"eval", scene, "--at", "u=1/0"}).exit == 3);
+    CHECK(run({"eval", scene, "--at", "v=5"}).exit == 3);
+}
+
+TEST_CASE("told: no output overwrites a file of a class or of loops, and a class ends at its folder") {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(temporary("x", "")).parent_path() / "class",
+                   outside = folder.parent_path() / "other.md";
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const std::string text = "The equation of motion is $m \\ddot x = 0$.\n";
+    std::ofstream(folder / "own.md") << text;
+    std::ofstream(outside) << text;
+    fs::create_symlink(outside, folder / "linked.md");
+    fs::remove(folder.parent_path() / "page.html");
+    fs::create_symlink(folder / "own.md", folder.parent_path() / "page.html");
+    const std::string scene = on_line("");
+    const auto graded = run({"check", scene, folder.string()});
+    CHECK(graded.out.find("own.md") != std::string::npos);
+    CHECK(graded.out.find("linked.md") == std::string::npos);
+    CHECK(run({"check", scene, folder.string(), "--html", (folder.parent_path() / "page.html").string()}).exit ==
+          3);
+    CHECK(alembert::test::contents((folder / "own.md").string()) == text);
+    const std::string loops = temporary("loops.toml", "");
+    CHECK(run({"import", alembert::test::source_path("tests/robots/arm6.urdf"), "-o", loops, "--loops", loops})
+              .exit == 3);
+}
+
+}  // namespace commands_told
