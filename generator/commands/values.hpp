@@ -19,7 +19,7 @@ inline constexpr const char *scene = "SCENE", *claims = "CLAIMS", *robot = "ROBO
                             *names = "NAMES", *interval = "NAME=FROM:TO", *shell = "SHELL", *verb = "VERB",
                             *language = "LANGUAGE", *point = "POINT", *formula = "EXPRESSION", *reading = "en|zh",
                             *interface_version = "2|3", *sampling = "SAMPLING", *code = "CODE",
-                            *statistics = "LIST";
+                            *statistics = "LIST", *name = "NAME";
 }
 
 struct ValueKind {
