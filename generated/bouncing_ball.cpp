@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'bouncing_ball': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit bouncing_ball.toml
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -22,12 +24,16 @@
 //   int main() {
 //       const double state[2] = {1, 0};
 //       double par[6], rate[2];
-//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 4; ++k) par[k] = bouncing_ball::parameter_values[k];
+//       bouncing_ball::prepare(par);
+//       bouncing_ball::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace bouncing_ball::code {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -95,12 +101,11 @@ void energy(const Real&, const Real* state, const Real*, const Real* par, Real* 
 template <typename Real>
 void outputs_at(const Real&, const Real*, const Real*, const Real*, Real* out) {
 
-
     // Result
     out[0] = Real(0);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -157,7 +162,59 @@ constexpr alembert_solver_table table{
     [](double, const double*, const double*, double*) {},
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, nullptr, nullptr, nullptr, 0,
+};
+
 }  // namespace
+}  // namespace bouncing_ball::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+namespace bouncing_ball {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::outputs_at;
+}  // namespace bouncing_ball
 
+using namespace bouncing_ball;
+
+// What bouncing_ball.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_prepare(double* par) {
+    bouncing_ball::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_rhs(double t, const double* state, const double* par, double* rate) {
+    bouncing_ball::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    bouncing_ball::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    bouncing_ball::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    bouncing_ball::code::table.outputs_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* bouncing_ball_tables() { return &bouncing_ball::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return bouncing_ball::code::all.solver; }
+#endif

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'cart_pole': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit cart_pole.toml
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -23,12 +25,16 @@
 //   int main() {
 //       const double state[4] = {0, 0.15, 0, 0};
 //       double par[14], rate[4];
-//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 7; ++k) par[k] = cart_pole::parameter_values[k];
+//       cart_pole::prepare(par);
+//       cart_pole::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace cart_pole::code {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -38,6 +44,8 @@ template <typename Real> pair<Real> sincos(const Real& x);
 template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
 inline pair<double> sincos(double x);
 inline double sin(double x), cos(double x);
+inline float sin(float x), cos(float x);
+inline long double sin(long double x), cos(long double x);
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -200,7 +208,7 @@ template <typename Real, unsigned count> struct sines { Real sine[count], cosine
 
 /// Stands where a sum has to be made as it is written, also for a compiler that may make it in another order.
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
+template <typename Real> [[gnu::always_inline]] inline Real&& as_written(Real&& x) {
 #if defined(__AVX512F__)
     constexpr unsigned widest = 64;
 #elif defined(__AVX__)
@@ -208,7 +216,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
     constexpr unsigned widest = 16;
 #endif
-    if constexpr (sizeof(Real) > widest)
+    if constexpr (sizeof x > widest)
         __asm__("" : "+m"(x));
     else
 #if defined(__x86_64__)
@@ -218,7 +226,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
         __asm__("" : "+m"(x));
 #endif
-    return x;
+    return static_cast<Real&&>(x);
 }
 #else
 template <typename Real> [[gnu::always_inline]] inline const Real& as_written(const Real& x) { return x; }
@@ -242,7 +250,13 @@ constexpr double farthest = 1e8;
 }
 #endif
 #endif
-template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
+#if !defined(__FMA__)
+template <typename Real> constexpr bool fuses = false;
+#elif defined(__AVX512F__)
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4) || __is_same(Real, real8);
+#else
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4);
+#endif
 
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
@@ -319,6 +333,10 @@ template <typename Wide, typename Bits, typename... Angle>
 
 inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
+inline float sin(float x) { return __builtin_sinf(x); }
+inline float cos(float x) { return __builtin_cosf(x); }
+inline long double sin(long double x) { return __builtin_sinl(x); }
+inline long double cos(long double x) { return __builtin_cosl(x); }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
 /// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
@@ -352,7 +370,7 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -411,7 +429,63 @@ constexpr alembert_solver_table table{
     [](double, const double*, const double*, double*) {},
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, nullptr, nullptr, nullptr, 0,
+};
+
 }  // namespace
+}  // namespace cart_pole::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+namespace cart_pole {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::outputs_at;
+using code::events_at;
+}  // namespace cart_pole
 
+using namespace cart_pole;
+
+// What cart_pole.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_prepare(double* par) {
+    cart_pole::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_rhs(double t, const double* state, const double* par, double* rate) {
+    cart_pole::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    cart_pole::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    cart_pole::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    cart_pole::code::table.outputs_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_events_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    cart_pole::code::table.events_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* cart_pole_tables() { return &cart_pole::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return cart_pole::code::all.solver; }
+#endif

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'chaplygin_sleigh_in_speeds': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit chaplygin_sleigh_in_speeds.toml
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -13,7 +15,8 @@
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   outputs_at      out[2]: v, w
 //   constraints_at  position[1], velocity[1]; rows[5], A row by row
-//   multipliers_at  lambda[1]
+//   rows of A       blade
+//   multipliers_at  lambda[1]: lambda_blade
 //   cost            9 operations a right-hand side: 0 additions, 7 multiplications, 0 divisions, 2 functions
 //
 // Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
@@ -24,12 +27,16 @@
 //   int main() {
 //       const double state[5] = {0, 0, 0, 0.5, 2};
 //       double par[8], rate[5];
-//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 3; ++k) par[k] = chaplygin_sleigh_in_speeds::parameter_values[k];
+//       chaplygin_sleigh_in_speeds::prepare(par);
+//       chaplygin_sleigh_in_speeds::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace chaplygin_sleigh_in_speeds::code {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -39,6 +46,8 @@ template <typename Real> pair<Real> sincos(const Real& x);
 template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
 inline pair<double> sincos(double x);
 inline double sin(double x), cos(double x);
+inline float sin(float x), cos(float x);
+inline long double sin(long double x), cos(long double x);
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -203,7 +212,7 @@ template <typename Real, unsigned count> struct sines { Real sine[count], cosine
 
 /// Stands where a sum has to be made as it is written, also for a compiler that may make it in another order.
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
+template <typename Real> [[gnu::always_inline]] inline Real&& as_written(Real&& x) {
 #if defined(__AVX512F__)
     constexpr unsigned widest = 64;
 #elif defined(__AVX__)
@@ -211,7 +220,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
     constexpr unsigned widest = 16;
 #endif
-    if constexpr (sizeof(Real) > widest)
+    if constexpr (sizeof x > widest)
         __asm__("" : "+m"(x));
     else
 #if defined(__x86_64__)
@@ -221,7 +230,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
         __asm__("" : "+m"(x));
 #endif
-    return x;
+    return static_cast<Real&&>(x);
 }
 #else
 template <typename Real> [[gnu::always_inline]] inline const Real& as_written(const Real& x) { return x; }
@@ -245,7 +254,13 @@ constexpr double farthest = 1e8;
 }
 #endif
 #endif
-template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
+#if !defined(__FMA__)
+template <typename Real> constexpr bool fuses = false;
+#elif defined(__AVX512F__)
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4) || __is_same(Real, real8);
+#else
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4);
+#endif
 
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
@@ -322,6 +337,10 @@ template <typename Wide, typename Bits, typename... Angle>
 
 inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
+inline float sin(float x) { return __builtin_sinf(x); }
+inline float cos(float x) { return __builtin_cosf(x); }
+inline long double sin(long double x) { return __builtin_sinl(x); }
+inline long double cos(long double x) { return __builtin_cosl(x); }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
 /// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
@@ -355,7 +374,7 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -414,12 +433,6 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
 };
 
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
-
-namespace {
-
 struct alembert_projection_table {
     int abi;
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
@@ -433,7 +446,68 @@ constexpr alembert_projection_table projection{
     nullptr,
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, &projection, nullptr, nullptr, 1,
+};
+
 }  // namespace
+}  // namespace chaplygin_sleigh_in_speeds::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+namespace chaplygin_sleigh_in_speeds {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::outputs_at;
+using code::constraints_at;
+using code::multipliers_at;
+}  // namespace chaplygin_sleigh_in_speeds
 
+using namespace chaplygin_sleigh_in_speeds;
+
+// What chaplygin_sleigh_in_speeds.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_prepare(double* par) {
+    chaplygin_sleigh_in_speeds::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_rhs(double t, const double* state, const double* par, double* rate) {
+    chaplygin_sleigh_in_speeds::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    chaplygin_sleigh_in_speeds::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    chaplygin_sleigh_in_speeds::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    chaplygin_sleigh_in_speeds::code::table.outputs_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    chaplygin_sleigh_in_speeds::code::table.constraints_at(t, state, par, position, velocity, rows);
+}
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_multipliers_at(double t, const double* state, const double* par, double* lambda) {
+    chaplygin_sleigh_in_speeds::code::table.multipliers_at(t, state, par, lambda);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* chaplygin_sleigh_in_speeds_tables() { return &chaplygin_sleigh_in_speeds::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return chaplygin_sleigh_in_speeds::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return chaplygin_sleigh_in_speeds::code::all.projection; }
+#endif

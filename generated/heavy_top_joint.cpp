@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'heavy_top_joint': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit heavy_top_joint.toml
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -9,11 +11,12 @@
 //   rate[7]         d state / dt
 //   par[16]         m = 2 [kg], l = 0.5 [m], g = 1 [m/s^2], A = 1 [kg m^2], C = 0.5 [kg m^2], theta0 = 1 [rad],
 //                   then 10 numbers that prepare computes from them; call it after each change
-//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   mass_forcing    mass[9], M + c A^T A row by row; forcing[3], f + c A^T gamma, with a c for the norm of each quaternion
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   outputs_at      out[5]: height, vertical, w1, w2, w3
 //   constraints_at  position[1], velocity[1]; rows[7], A row by row
-//   multipliers_at  lambda[1]
+//   rows of A       top
+//   multipliers_at  lambda[1]: lambda_top
 //   project         out[7], position[1], pivots[1]
 //   cost            49 operations a right-hand side: 15 additions, 33 multiplications, 1 division, 0 functions
 //
@@ -25,12 +28,16 @@
 //   int main() {
 //       const double state[7] = {0.8775825618903728, 0.479425538604203, 0, 0, 0, 0, 4};
 //       double par[16], rate[7];
-//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 6; ++k) par[k] = heavy_top_joint::parameter_values[k];
+//       heavy_top_joint::prepare(par);
+//       heavy_top_joint::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace heavy_top_joint::code {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -412,7 +419,7 @@ void project(const Real&, const Real* state, const Real*, Real* out, Real* posit
     pivots[0] = Real(4) * z0;
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -471,12 +478,6 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
 };
 
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
-
-namespace {
-
 struct alembert_projection_table {
     int abi;
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
@@ -492,7 +493,72 @@ constexpr alembert_projection_table projection{
     nullptr,
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, &projection, nullptr, nullptr, 1,
+};
+
 }  // namespace
+}  // namespace heavy_top_joint::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+namespace heavy_top_joint {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::outputs_at;
+using code::constraints_at;
+using code::multipliers_at;
+using code::project;
+}  // namespace heavy_top_joint
 
+using namespace heavy_top_joint;
+
+// What heavy_top_joint.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_prepare(double* par) {
+    heavy_top_joint::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_rhs(double t, const double* state, const double* par, double* rate) {
+    heavy_top_joint::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    heavy_top_joint::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    heavy_top_joint::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    heavy_top_joint::code::table.outputs_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    heavy_top_joint::code::table.constraints_at(t, state, par, position, velocity, rows);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_multipliers_at(double t, const double* state, const double* par, double* lambda) {
+    heavy_top_joint::code::table.multipliers_at(t, state, par, lambda);
+}
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    heavy_top_joint::code::projection.project(t, state, par, out, position, pivots);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* heavy_top_joint_tables() { return &heavy_top_joint::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return heavy_top_joint::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return heavy_top_joint::code::all.projection; }
+#endif

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'moving_support': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit moving_support.toml
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -22,15 +24,21 @@
 //   int main() {
 //       const double state[2] = {0.4, 0};
 //       double par[15], rate[2];
-//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 5; ++k) par[k] = moving_support::parameter_values[k];
+//       moving_support::prepare(par);
+//       moving_support::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace moving_support::code {
 namespace {  // seen in this file alone
 
 inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline float sqrt(float x) { return __builtin_sqrtf(x); }
+inline long double sqrt(long double x) { return __builtin_sqrtl(x); }
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
 template <typename Real> struct pair;
@@ -39,6 +47,8 @@ template <typename Real> pair<Real> sincos(const Real& x);
 template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
 inline pair<double> sincos(double x);
 inline double sin(double x), cos(double x);
+inline float sin(float x), cos(float x);
+inline long double sin(long double x), cos(long double x);
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -199,7 +209,7 @@ template <typename Real, unsigned count> struct sines { Real sine[count], cosine
 
 /// Stands where a sum has to be made as it is written, also for a compiler that may make it in another order.
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
+template <typename Real> [[gnu::always_inline]] inline Real&& as_written(Real&& x) {
 #if defined(__AVX512F__)
     constexpr unsigned widest = 64;
 #elif defined(__AVX__)
@@ -207,7 +217,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
     constexpr unsigned widest = 16;
 #endif
-    if constexpr (sizeof(Real) > widest)
+    if constexpr (sizeof x > widest)
         __asm__("" : "+m"(x));
     else
 #if defined(__x86_64__)
@@ -217,7 +227,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
         __asm__("" : "+m"(x));
 #endif
-    return x;
+    return static_cast<Real&&>(x);
 }
 #else
 template <typename Real> [[gnu::always_inline]] inline const Real& as_written(const Real& x) { return x; }
@@ -241,7 +251,13 @@ constexpr double farthest = 1e8;
 }
 #endif
 #endif
-template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
+#if !defined(__FMA__)
+template <typename Real> constexpr bool fuses = false;
+#elif defined(__AVX512F__)
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4) || __is_same(Real, real8);
+#else
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4);
+#endif
 
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
@@ -318,6 +334,10 @@ template <typename Wide, typename Bits, typename... Angle>
 
 inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
+inline float sin(float x) { return __builtin_sinf(x); }
+inline float cos(float x) { return __builtin_cosf(x); }
+inline long double sin(long double x) { return __builtin_sinl(x); }
+inline long double cos(long double x) { return __builtin_cosl(x); }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
 /// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
@@ -351,7 +371,7 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -408,7 +428,59 @@ constexpr alembert_solver_table table{
     [](double, const double*, const double*, double*) {},
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, nullptr, nullptr, nullptr, 0,
+};
+
 }  // namespace
+}  // namespace moving_support::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+namespace moving_support {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::outputs_at;
+}  // namespace moving_support
 
+using namespace moving_support;
+
+// What moving_support.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_prepare(double* par) {
+    moving_support::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_rhs(double t, const double* state, const double* par, double* rate) {
+    moving_support::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    moving_support::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    moving_support::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    moving_support::code::table.outputs_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* moving_support_tables() { return &moving_support::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return moving_support::code::all.solver; }
+#endif

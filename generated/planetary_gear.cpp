@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'planetary_gear': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit planetary_gear.toml
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -12,7 +14,8 @@
 //   mass_forcing    mass[4], M row by row; forcing[2], f
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   constraints_at  position[1], velocity[1]; rows[2], A row by row
-//   multipliers_at  lambda[1]
+//   rows of A       mesh_y
+//   multipliers_at  lambda[1]: lambda_mesh_y
 //   project         out[4], position[1], pivots[1]
 //   cost            0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
 //
@@ -24,12 +27,16 @@
 //   int main() {
 //       const double state[4] = {0, 0, 0, 0};
 //       double par[17], rate[4];
-//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 5; ++k) par[k] = planetary_gear::parameter_values[k];
+//       planetary_gear::prepare(par);
+//       planetary_gear::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace planetary_gear::code {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -166,12 +173,11 @@ void project(const Real&, const Real* state, const Real* par, Real* out, Real* p
 template <typename Real>
 void gamma_at(const Real&, const Real*, const Real*, Real* out) {
 
-
     // Result
     out[0] = Real(0);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -228,12 +234,6 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
 };
 
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
-
-namespace {
-
 struct alembert_projection_table {
     int abi;
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
@@ -249,7 +249,72 @@ constexpr alembert_projection_table projection{
     [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, &projection, nullptr, nullptr, 1,
+};
+
 }  // namespace
+}  // namespace planetary_gear::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+namespace planetary_gear {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::constraints_at;
+using code::multipliers_at;
+using code::project;
+using code::gamma_at;
+}  // namespace planetary_gear
 
+using namespace planetary_gear;
+
+// What planetary_gear.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_prepare(double* par) {
+    planetary_gear::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_rhs(double t, const double* state, const double* par, double* rate) {
+    planetary_gear::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    planetary_gear::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    planetary_gear::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    planetary_gear::code::table.constraints_at(t, state, par, position, velocity, rows);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_multipliers_at(double t, const double* state, const double* par, double* lambda) {
+    planetary_gear::code::table.multipliers_at(t, state, par, lambda);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    planetary_gear::code::projection.project(t, state, par, out, position, pivots);
+}
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_gamma_at(double t, const double* state, const double* par, double* out) {
+    planetary_gear::code::projection.gamma_at(t, state, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* planetary_gear_tables() { return &planetary_gear::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return planetary_gear::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return planetary_gear::code::all.projection; }
+#endif

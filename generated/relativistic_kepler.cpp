@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'relativistic_kepler': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit relativistic_kepler.toml
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -21,15 +23,21 @@
 //   int main() {
 //       const double state[4] = {1, 0, 0, 1.2};
 //       double par[8], rate[4];
-//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 3; ++k) par[k] = relativistic_kepler::parameter_values[k];
+//       relativistic_kepler::prepare(par);
+//       relativistic_kepler::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace relativistic_kepler::code {
 namespace {  // seen in this file alone
 
 inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline float sqrt(float x) { return __builtin_sqrtf(x); }
+inline long double sqrt(long double x) { return __builtin_sqrtl(x); }
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -164,7 +172,7 @@ void energy(const Real&, const Real* state, const Real*, const Real* par, Real* 
     jacobi[0] = E;
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -219,7 +227,55 @@ constexpr alembert_solver_table table{
     [](double, const double*, const double*, double*) {},
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, nullptr, nullptr, nullptr, 0,
+};
+
 }  // namespace
+}  // namespace relativistic_kepler::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+namespace relativistic_kepler {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+}  // namespace relativistic_kepler
 
+using namespace relativistic_kepler;
+
+// What relativistic_kepler.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_prepare(double* par) {
+    relativistic_kepler::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_rhs(double t, const double* state, const double* par, double* rate) {
+    relativistic_kepler::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    relativistic_kepler::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    relativistic_kepler::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* relativistic_kepler_tables() { return &relativistic_kepler::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return relativistic_kepler::code::all.solver; }
+#endif

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'rolling_disc_in_space': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit rolling_disc_in_space.toml
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -12,7 +14,8 @@
 //   mass_forcing    mass[25], M row by row; forcing[5], f
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   constraints_at  position[2], velocity[2]; rows[10], A row by row
-//   multipliers_at  lambda[2]
+//   rows of A       rim_x, rim_y
+//   multipliers_at  lambda[2]: lambda_rim_x, lambda_rim_y
 //   project         out[10], position[2], pivots[2]
 //   cost            164 operations a right-hand side: 53 additions, 102 multiplications, 5 divisions, 4 functions
 //
@@ -24,12 +27,16 @@
 //   int main() {
 //       const double state[10] = {0, 0, 0, 0.3, 0, 3, 0, 0.4, 0.2, 6};
 //       double par[15], rate[10];
-//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 3; ++k) par[k] = rolling_disc_in_space::parameter_values[k];
+//       rolling_disc_in_space::prepare(par);
+//       rolling_disc_in_space::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace rolling_disc_in_space::code {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -39,6 +46,8 @@ template <typename Real> pair<Real> sincos(const Real& x);
 template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
 inline pair<double> sincos(double x);
 inline double sin(double x), cos(double x);
+inline float sin(float x), cos(float x);
+inline long double sin(long double x), cos(long double x);
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -55,7 +64,7 @@ void prepare(Real* par) {
     const Real k3 = Real(2.5) * z0;
     const Real k4 = m * r * g;
     const Real z1 = Real(1) / z0;
-    const Real k5 = Real(0.8) * z1;
+    const Real k5 = (Real(4) / Real(5)) * z1;
     const Real k6 = Real(2) * z1;
     const Real k7 = Real(0.625) * z0;
     const Real k8 = Real(0.5) * m;
@@ -507,7 +516,7 @@ template <typename Real, unsigned count> struct sines { Real sine[count], cosine
 
 /// Stands where a sum has to be made as it is written, also for a compiler that may make it in another order.
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
+template <typename Real> [[gnu::always_inline]] inline Real&& as_written(Real&& x) {
 #if defined(__AVX512F__)
     constexpr unsigned widest = 64;
 #elif defined(__AVX__)
@@ -515,7 +524,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
     constexpr unsigned widest = 16;
 #endif
-    if constexpr (sizeof(Real) > widest)
+    if constexpr (sizeof x > widest)
         __asm__("" : "+m"(x));
     else
 #if defined(__x86_64__)
@@ -525,7 +534,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
         __asm__("" : "+m"(x));
 #endif
-    return x;
+    return static_cast<Real&&>(x);
 }
 #else
 template <typename Real> [[gnu::always_inline]] inline const Real& as_written(const Real& x) { return x; }
@@ -549,7 +558,13 @@ constexpr double farthest = 1e8;
 }
 #endif
 #endif
-template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
+#if !defined(__FMA__)
+template <typename Real> constexpr bool fuses = false;
+#elif defined(__AVX512F__)
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4) || __is_same(Real, real8);
+#else
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4);
+#endif
 
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
@@ -626,6 +641,10 @@ template <typename Wide, typename Bits, typename... Angle>
 
 inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
+inline float sin(float x) { return __builtin_sinf(x); }
+inline float cos(float x) { return __builtin_cosf(x); }
+inline long double sin(long double x) { return __builtin_sinl(x); }
+inline long double cos(long double x) { return __builtin_cosl(x); }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
 /// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
@@ -659,7 +678,7 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -716,12 +735,6 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
 };
 
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
-
-namespace {
-
 struct alembert_projection_table {
     int abi;
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
@@ -737,7 +750,72 @@ constexpr alembert_projection_table projection{
     [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, &projection, nullptr, nullptr, 2,
+};
+
 }  // namespace
+}  // namespace rolling_disc_in_space::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+namespace rolling_disc_in_space {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::constraints_at;
+using code::multipliers_at;
+using code::project;
+using code::gamma_at;
+}  // namespace rolling_disc_in_space
 
+using namespace rolling_disc_in_space;
+
+// What rolling_disc_in_space.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_prepare(double* par) {
+    rolling_disc_in_space::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_rhs(double t, const double* state, const double* par, double* rate) {
+    rolling_disc_in_space::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    rolling_disc_in_space::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    rolling_disc_in_space::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    rolling_disc_in_space::code::table.constraints_at(t, state, par, position, velocity, rows);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_multipliers_at(double t, const double* state, const double* par, double* lambda) {
+    rolling_disc_in_space::code::table.multipliers_at(t, state, par, lambda);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    rolling_disc_in_space::code::projection.project(t, state, par, out, position, pivots);
+}
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_gamma_at(double t, const double* state, const double* par, double* out) {
+    rolling_disc_in_space::code::projection.gamma_at(t, state, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* rolling_disc_in_space_tables() { return &rolling_disc_in_space::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return rolling_disc_in_space::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return rolling_disc_in_space::code::all.projection; }
+#endif

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: MIT
 // Equations of motion of 'sled': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//   alembert emit sled.toml
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -13,7 +15,8 @@
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   outputs_at      out[1]: v
 //   constraints_at  position[1], velocity[1]; rows[3], A row by row
-//   multipliers_at  lambda[1]
+//   rows of A       blade
+//   multipliers_at  lambda[1]: lambda1
 //   project         out[6], position[1], pivots[1]
 //   cost            12 operations a right-hand side: 2 additions, 8 multiplications, 1 division, 1 function
 //
@@ -25,15 +28,21 @@
 //   int main() {
 //       const double state[6] = {0, 0, 0, 1.2, 0, 0.3};
 //       double par[5], rate[6];
-//       for (int k = 0; k < 2; ++k) par[k] = parameter_values[k];
-//       prepare(par);
-//       rhs(0.0, state, par, rate);
+//       for (int k = 0; k < 2; ++k) par[k] = sled::parameter_values[k];
+//       sled::prepare(par);
+//       sled::rhs(0.0, state, par, rate);
 //       for (const double value : rate) std::printf("%.17g\n", value);
 //   }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
+#pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
+namespace sled::code {
 namespace {  // seen in this file alone
 
 inline double tan(double x) { return __builtin_tan(x); }
+inline float tan(float x) { return __builtin_tanf(x); }
+inline long double tan(long double x) { return __builtin_tanl(x); }
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
 template <typename Real> struct pair;
@@ -42,6 +51,8 @@ template <typename Real> pair<Real> sincos(const Real& x);
 template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
 inline pair<double> sincos(double x);
 inline double sin(double x), cos(double x);
+inline float sin(float x), cos(float x);
+inline long double sin(long double x), cos(long double x);
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -229,7 +240,7 @@ template <typename Real, unsigned count> struct sines { Real sine[count], cosine
 
 /// Stands where a sum has to be made as it is written, also for a compiler that may make it in another order.
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
+template <typename Real> [[gnu::always_inline]] inline Real&& as_written(Real&& x) {
 #if defined(__AVX512F__)
     constexpr unsigned widest = 64;
 #elif defined(__AVX__)
@@ -237,7 +248,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
     constexpr unsigned widest = 16;
 #endif
-    if constexpr (sizeof(Real) > widest)
+    if constexpr (sizeof x > widest)
         __asm__("" : "+m"(x));
     else
 #if defined(__x86_64__)
@@ -247,7 +258,7 @@ template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
 #else
         __asm__("" : "+m"(x));
 #endif
-    return x;
+    return static_cast<Real&&>(x);
 }
 #else
 template <typename Real> [[gnu::always_inline]] inline const Real& as_written(const Real& x) { return x; }
@@ -271,7 +282,13 @@ constexpr double farthest = 1e8;
 }
 #endif
 #endif
-template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
+#if !defined(__FMA__)
+template <typename Real> constexpr bool fuses = false;
+#elif defined(__AVX512F__)
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4) || __is_same(Real, real8);
+#else
+template <typename Real> constexpr bool fuses = __is_same(Real, double) || __is_same(Real, real2) || __is_same(Real, real4);
+#endif
 
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
@@ -348,6 +365,10 @@ template <typename Wide, typename Bits, typename... Angle>
 
 inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
+inline float sin(float x) { return __builtin_sinf(x); }
+inline float cos(float x) { return __builtin_cosf(x); }
+inline long double sin(long double x) { return __builtin_sinl(x); }
+inline long double cos(long double x) { return __builtin_cosl(x); }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
 /// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
@@ -381,7 +402,7 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-// What the runtime loads (alembert/native/abi.hpp).
+// The tables of alembert/native/abi.hpp.
 
 struct alembert_solver_table {
     int abi;
@@ -440,12 +461,6 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
 };
 
-}  // namespace
-
-extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
-
-namespace {
-
 struct alembert_projection_table {
     int abi;
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
@@ -461,7 +476,76 @@ constexpr alembert_projection_table projection{
     [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
 };
 
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
+constexpr alembert_tables all{
+    &table, nullptr, &projection, nullptr, nullptr, 1,
+};
+
 }  // namespace
+}  // namespace sled::code
+#pragma GCC diagnostic pop
 
-extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+namespace sled {
+using code::parameter_values;
+using code::coordinate_names;
+using code::speed_names;
+using code::parameter_names;
+using code::output_names;
+using code::event_names;
+using code::table;
+using code::prepare;
+using code::rhs;
+using code::mass_forcing;
+using code::energy;
+using code::outputs_at;
+using code::constraints_at;
+using code::multipliers_at;
+using code::project;
+using code::gamma_at;
+}  // namespace sled
 
+using namespace sled;
+
+// What sled.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
+extern "C" __attribute__((weak, visibility("default"))) void sled_prepare(double* par) {
+    sled::code::table.prepare(par);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_rhs(double t, const double* state, const double* par, double* rate) {
+    sled::code::table.rhs(t, state, par, rate);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
+    sled::code::table.mass_forcing(t, state, par, mass, forcing);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    sled::code::table.energy(t, state, rate, par, energy, jacobi);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
+    sled::code::table.outputs_at(t, state, rate, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    sled::code::table.constraints_at(t, state, par, position, velocity, rows);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_multipliers_at(double t, const double* state, const double* par, double* lambda) {
+    sled::code::table.multipliers_at(t, state, par, lambda);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    sled::code::projection.project(t, state, par, out, position, pivots);
+}
+extern "C" __attribute__((weak, visibility("default"))) void sled_gamma_at(double t, const double* state, const double* par, double* out) {
+    sled::code::projection.gamma_at(t, state, par, out);
+}
+extern "C" __attribute__((weak, visibility("default"))) const void* sled_tables() { return &sled::code::all; }
+
+#ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
+#define ALEMBERT_NO_MODULE
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return sled::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return sled::code::all.projection; }
+#endif

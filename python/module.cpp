@@ -22,6 +22,7 @@
 #include "present/report/motion_plot.hpp"
 #include "present/report/run.hpp"
 #include "present/report/table_file.hpp"
+#include "scene/typed_words.hpp"
 #include "simulate/between_rows.hpp"
 #include "simulate/emission.hpp"
 #include "simulate/section.hpp"
@@ -120,17 +121,27 @@ CompiledSystem compiled_system(std::string source) {
     return {std::move(module), std::move(source)};
 }
 
-std::pair<CompiledSystem, Warnings> system_of(const std::string& text, const std::string& file,
-                                              const std::string& by, bool jacobian,
-                                              const std::vector<std::string>& functions,
-                                              const std::vector<std::string>& frames) {
-    auto [source, warnings] = in_turn([&] {
+/// The names of coordinates, speeds and parameters as the scene writes them; those in the tables of emitted code
+/// are identifiers of C++.
+using SystemNames = std::array<std::vector<std::string>, 3>;
+
+std::tuple<CompiledSystem, Warnings, SystemNames> system_of(const std::string& text, const std::string& file,
+                                                            const std::string& by, bool jacobian,
+                                                            const std::vector<std::string>& functions,
+                                                            const std::vector<std::string>& frames) {
+    auto [source, warnings, names] = in_turn([&] {
         Emission emitted =
             emission(parse_scene(text, file),
                      {.by = by, .jacobian = jacobian, .batch = true, .functions = functions, .frames = frames});
-        return std::pair(std::move(emitted.source.text), std::move(emitted.warnings));
+        const Program& program = emitted.choice.program;
+        SystemNames of_scene;
+        for (std::size_t k = 0; const auto* list : {&program.coordinates, &program.speeds, &program.parameters}) {
+            for (const Quantity& quantity : *list) of_scene[k].push_back(quantity.name);
+            ++k;
+        }
+        return std::tuple(std::move(emitted.source.text), std::move(emitted.warnings), std::move(of_scene));
     });
-    return {compiled_system(std::move(source)), std::move(warnings)};
+    return {compiled_system(std::move(source)), std::move(warnings), std::move(names)};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -303,6 +314,11 @@ void add_verbs(py::module_& module) {
                });
     module.def("system", system_of);
     module.def("functions_of_robots", all_functions);
+    module.def("in_words_of_scenes", [](std::string text) {
+        std::vector<Place> places;
+        write_in_words(text, places, KnownNames());
+        return text;
+    });
     module.def("need_form", [](const std::string& path, const std::string& form) {
         need_form(path, form == "picture" ? FileForm::picture : form == "unit" ? FileForm::unit : FileForm::page);
     });
@@ -351,9 +367,7 @@ void add_motion(py::module_& module) {
 void add_system(py::module_& module) {
     py::class_<CompiledSystem>(module, "System")
         .def_property_readonly("dimension", &CompiledSystem::dimension)
-        .def_property_readonly("coordinates", &CompiledSystem::coordinates)
-        .def_property_readonly("speeds", &CompiledSystem::speeds)
-        .def_property_readonly("parameter_names", &CompiledSystem::parameter_names)
+        .def("copy", [](const CompiledSystem& s) { return CompiledSystem(s); })
         .def_property_readonly("parameter_values", &CompiledSystem::parameter_values)
         .def_property_readonly("source", &CompiledSystem::source)
         .def("set_parameters", &CompiledSystem::set_parameters)

@@ -15,10 +15,6 @@ double time_of(const std::vector<double>& times, std::size_t k) {
     return times.size() == 1 ? times[0] : times[k];
 }
 
-std::vector<std::string> strings(const char* const* names, int count) {
-    return names == nullptr ? std::vector<std::string>{} : std::vector<std::string>(names, names + count);
-}
-
 /// Numbers at a multiple of 64 bytes, as the functions for packs want them.
 class Aligned {
 public:
@@ -90,16 +86,6 @@ CompiledSystem::CompiledSystem(Module module, std::string source)
       s_(module_.table().speeds),
       values_(module_.table().parameter_values, module_.table().parameter_values + module_.table().parameters),
       par_(prepared(module_)) {}
-
-std::vector<std::string> CompiledSystem::coordinates() const {
-    return strings(module_.table().coordinate_names, n_);
-}
-std::vector<std::string> CompiledSystem::speeds() const {
-    return strings(module_.table().speed_names, s_);
-}
-std::vector<std::string> CompiledSystem::parameter_names() const {
-    return strings(module_.table().parameter_names, module_.table().parameters);
-}
 
 void CompiledSystem::set_parameters(const std::vector<double>& values) {
     if (values.size() != values_.size())

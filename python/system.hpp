@@ -23,9 +23,6 @@ public:
     int dimension() const { return n_ + s_; }
     int coordinate_count() const { return n_; }
     int speed_count() const { return s_; }
-    std::vector<std::string> coordinates() const;
-    std::vector<std::string> speeds() const;  ///< of the scene; empty where they are the rates
-    std::vector<std::string> parameter_names() const;
     const std::vector<double>& parameter_values() const { return values_; }
     const std::string& source() const { return source_; }
 

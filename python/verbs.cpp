@@ -283,7 +283,8 @@ Answer do_fmu(Scene scene, const Asked& asked) {
 }
 
 Answer do_emit(Scene scene, const Asked& asked) {
-    const Emission e = emission(std::move(scene), {.by = asked.by(),
+    const Emission e = emission(std::move(scene), {.name = asked.text("name"),
+                                                   .by = asked.by(),
                                                    .fold = asked.flag("fold"),
                                                    .jacobian = asked.flag("jacobian"),
                                                    .batch = asked.flag("batch"),

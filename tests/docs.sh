@@ -183,7 +183,7 @@ while IFS= read -r verb; do
     lines=$(wc -l <"$work/help")
     wide=$(wc -L <"$work/help")
     case $verb in # those with the most options need more
-        emit) most_lines=29 ;;
+        emit) most_lines=30 ;;
         simulate) most_lines=31 ;;
         sweep) most_lines=33 ;;
         '') most_lines=24 ;;

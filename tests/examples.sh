@@ -31,6 +31,24 @@ refuted: sign in x''*cos(theta)"
 prints controller 'the trolley is 0.000 m from its goal, the rope 0.000 rad from the vertical'
 "$work/prefix/bin/alembert" --version
 
+# A project with two systems, which links the runtime alone: neither GiNaC nor pkg-config is looked for.
+cmake -G Ninja -S "$root/examples/project" -B "$work/project" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >>"$work/log" 2>&1 ||
+    { tail -n 30 "$work/log"; exit 1; }
+cmake --build "$work/project" >>"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
+ctest --test-dir "$work/project" --output-on-failure >>"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
+printed=$("$work/project/crane_loop")
+[ "$printed" = 'the trolley is 0.000 m from its goal, the rope 0.000 rad from the vertical
+the pendulum is at -0.149218 rad after 10 s' ] || { printf 'crane_loop printed:\n%s\n' "$printed"; exit 1; }
+# The sources of the runtime in somebody's project, and the whole without the generator.
+mkdir "$work/within"
+printf 'cmake_minimum_required(VERSION 3.25)\nproject(within LANGUAGES CXX)\n%s\n%s\n' "add_subdirectory($root/lib alembert)" \
+    'get_target_property(name alembert::runtime ALIASED_TARGET)' >"$work/within/CMakeLists.txt"
+cmake -G Ninja -S "$work/within" -B "$work/within/build" -DCMAKE_CXX_COMPILER="$compiler" >>"$work/log" 2>&1 ||
+    { tail -n 30 "$work/log"; exit 1; }
+cmake -G Ninja -S "$root" -B "$work/runtime" -DALEMBERT_GENERATOR=OFF -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON \
+    -DCMAKE_CXX_COMPILER="$compiler" >>"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
+
 # The programs of docs/cpp.md: each block "```cpp NAME.cpp", and in the next block what it prints.
 mkdir "$work/cpp"
 awk -v folder="$work/cpp" '

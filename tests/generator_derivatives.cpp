@@ -69,9 +69,9 @@ double misfit(const Program& program, const Differentiated& d, const State<doubl
         double difference = 0, largest = 1e-3;
         for (std::size_t j = 0; j < columns; ++j) {
             const std::vector<Dual> exact = along(program, s, parameter, j);
-            for (std::size_t i = 0; i < y.size() + (tail.empty() ? 0 : 1); ++i) {
-                const double ours =
-                    value[static_cast<std::size_t>(i < y.size() ? nodes[i * columns + j] : tail[j])];
+            const std::size_t rows = nodes.size() / columns;  // that of the power may be among them
+            for (std::size_t i = 0; i < rows + (tail.empty() ? 0 : 1); ++i) {
+                const double ours = value[static_cast<std::size_t>(i < rows ? nodes[i * columns + j] : tail[j])];
                 difference = std::max(difference, std::isfinite(exact[i].d) ? std::abs(ours - exact[i].d) : 0);
                 largest = std::max(largest, std::abs(exact[i].d));
                 if (!std::isfinite(exact[i].v)) return;
@@ -361,6 +361,8 @@ TEST_CASE("derivatives: the Jacobians of the scenes are those of dual numbers") 
             INFO(one.name << ", seed 20240917, state " << k << ": " << d->route);
             // Rounding: the accelerations' own, and that of the differences of large terms in their derivatives.
             CHECK(misfit(one.program, *d, s) < 1e-10);
+            const std::size_t parameters = one.program.parameters.size();
+            CHECK(d->program.nodes_of(Group::parameter_jacobian).size() == parameters * (flat(s).size() + 1));
             ++checked;
             test::step_aside(s, random);
         }

@@ -2,6 +2,7 @@
 // Forces at places that move within a body: Reut's column of two rods is pushed along a fixed line. The equations
 // are by hand: δW = −P·δx of the rod's point that is on the line.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -65,6 +66,33 @@ TEST_CASE("force: places that are fixed in a body, a frame or the ground need no
         // A force on the ground moves nothing, which is another matter.
         for (const std::string& warning : d.warnings) CHECK(warning.find("fixed in no body") == std::string::npos);
     }
+}
+
+TEST_CASE("force: a point of the last body of a chain of turning joints is fixed in that body") {
+    std::string scene = "[parameters]\na = 0.1\n";
+    for (int k = 0; k < 6; ++k)
+        scene += fmt::format(
+            "[[body]]\nname = \"b{0}\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"j{0}\"\nparent = "
+            "\"{1}\"\n"
+            "child = \"b{0}\"\nparent_point = [\"a\", 0.2, 0.3]\nchild_point = [0, 0.1, -0.2]\ntype = "
+            "\"revolute\"\n"
+            "axis = \"{2}\"\ncoordinates = {{ q{0} = 0 }}\n",
+            k, k == 0 ? "N" : fmt::format("b{}", k - 1), std::string(1, "xyz"[k % 3]));
+    scene += "[[frame]]\nname = \"tool\"\nparent = \"b5\"\nrotate = [[\"x\", \"a\"]]\n";
+    const std::string force = "[[force]]\nat = \"tip\"\nvector = [1, 0, 0.3]\n";
+    const auto warnings = [&](const std::string& points) {
+        std::size_t count = 0;
+        for (const std::string& warning : derived(parse_scene(scene + points + force, "chain.toml")).warnings)
+            count += warning.find("fixed in no body") != std::string::npos ? 1 : 0;
+        return count;
+    };
+    const std::string tip =
+        "[[point]]\nname = \"tip\"\nfrom = \"{}\"\noffset = [0.1, \"{}\", 0.03]\naxes = \"{}\"\n";
+    const std::string hand = "[[point]]\nname = \"hand\"\nfrom = \"b5\"\noffset = [\"a\", 0, 0]\naxes = \"b5\"\n";
+    CHECK(warnings(fmt::format(fmt::runtime(tip), "b5", "0.02", "b5")) == 0);
+    CHECK(warnings(hand + fmt::format(fmt::runtime(tip), "hand", "0.02*a", "tool")) == 0);
+    // At a distance that changes it is not.
+    CHECK(warnings(hand + fmt::format(fmt::runtime(tip), "hand", "0.02*q2", "b5")) == 1);
 }
 
 TEST_CASE("force: 'on' needs a body, or a frame and a place given from a point of it") {

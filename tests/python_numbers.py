@@ -20,7 +20,7 @@ import numpy as np
 import alembert
 from python_shared import NO_SKIP, PENDULUM, TESTS, program, scene_file
 
-__all__ = ["CasadiFunctions", "Copies", "Motions", "Robots", "Systems", "Threads"]
+__all__ = ["CasadiFunctions", "Copies", "Motions", "NamesOfTheScene", "Robots", "Systems", "Threads"]
 
 
 def read(path):
@@ -533,3 +533,52 @@ class CasadiFunctions(unittest.TestCase):
         np.testing.assert_allclose(along[:, 0], [0, 0.5 * by_t], atol=1e-9)
         back, _, _ = self.evaluated("adj1_casadi_driven_rhs", t, y, p, rate, [0.3, 2])
         self.assertAlmostEqual(back[0, 0], 2 * by_t, places=9)
+
+class NamesOfTheScene(unittest.TestCase):
+    """A system's parameters are called as the scene calls them, not as the emitted C++ does."""
+
+    def pendulum(self, length):
+        return alembert.Scene(text=f"""gravity = [0, "-g"]
+[parameters]
+g = 9.81
+"{length}" = 1.0
+[coordinates]
+theta = 0.5
+[[particle]]
+name = "b"
+mass = 1
+position = ["{length}*sin(theta)", "-{length}*cos(theta)"]
+""")
+
+    def test_parameters_have_the_names_of_the_scene(self):
+        for name in ("l", "lambda", "int", "\u03bc", "rows", "class"):
+            with self.subTest(name=name):
+                system = self.pendulum(name).system()
+                self.assertEqual(list(system.parameters), ["g", name])
+                system.set({name: 2.0})
+                self.assertAlmostEqual(system.rhs(0, [0.5, 0])[1], -9.81 / 2 * math.sin(0.5), places=14)
+                system.set(**{name: 4.0})
+                self.assertEqual(system.parameters[name], 4.0)
+        with self.assertRaisesRegex(KeyError, "no parameter 'q'; there are g, l"):
+            self.pendulum("l").system().set(q=1)
+
+    def test_a_copied_system_has_parameters_of_its_own(self):
+        system = self.pendulum("l").system()
+        for same in (copy.copy(system), copy.deepcopy(system)):
+            same.set(l=2.0)
+            self.assertEqual((system.parameters["l"], same.parameters["l"]), (1.0, 2.0))
+            self.assertAlmostEqual(same.rhs(0, [0.5, 0])[1], system.rhs(0, [0.5, 0])[1] / 2, places=14)
+        robot = self.pendulum("l").robot(("mass",))
+        same = copy.copy(robot)
+        same.set(l=2.0)
+        self.assertEqual((robot.mass([0.5])[0, 0], same.mass([0.5])[0, 0]), (1.0, 4.0))
+
+    def test_contacts_that_are_left_out_are_told(self):
+        ball = alembert.Scene(scene_file("textbook/bouncing_ball.toml"))
+        with self.assertWarnsRegex(alembert.SceneWarning, "contacts and impulses"):
+            ball.system()
+
+    def test_a_run_that_breaks_off_warns(self):
+        scene = alembert.Scene(text='[coordinates]\nx = 1\n[energy]\nkinetic = "x\'^2/2"\npotential = "-x^4"')
+        with self.assertWarnsRegex(alembert.SceneWarning, "broke off"):
+            self.assertIsNotNone(scene.simulate(100).failure)

@@ -327,6 +327,7 @@ class Expressions(unittest.TestCase):
         self.assertEqual(alembert.to_sympy("-x^2"), -x**2)
         self.assertEqual(alembert.to_sympy("2^3^2"), 512)
         self.assertEqual(alembert.to_sympy("x^-2"), x**-2)
+        self.assertEqual(alembert.to_sympy("ln(x) + arcsin(x) + x²"), sympy.log(x) + sympy.asin(x) + x**2)
         self.assertEqual(alembert.to_sympy("0.1"), sympy.Rational(1, 10))
         for wrong in ("2x", "sin x", "(x", "", "x = "):
             with self.assertRaises(ValueError):

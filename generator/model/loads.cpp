@@ -190,9 +190,45 @@ Vector3 velocity_of_body_at(Building& here, const Force& f) {
     return add(here.places.velocity(fixed), cross(omega, between(here, fixed, f.at.text), *here.m.z), *here.m.z);
 }
 
+/// Whether the point is reached from the origin, a particle or a body by steps of constant length along the axes
+/// of one frame, which may be written in several frames that are fixed in each other.
+bool is_fixed_by_construction(Building& here, const std::string& point) {
+    std::vector<GiNaC::symbol> moving = here.m.moving();
+    moving.insert(moving.end(), here.m.qdot.begin(), here.m.qdot.end());
+    for (const Mechanism::Speed& speed : here.m.speeds) moving.push_back(speed.u);
+    int at = here.places.point(point);
+    std::vector<int> ends{0};
+    for (const Particle& p : here.scene.particles) ends.push_back(here.places.point(p.name.text));
+    for (const Body& b : here.scene.bodies) ends.push_back(here.places.point(b.point().text));
+    const Skeleton& steps = here.places.skeleton();
+    const auto is_constant = [&](const ex& e) { return !here.m.z->depends(e, moving); };
+    const auto rigid = [&](int frame) {  // the first of the frames in which this one is fixed
+        for (; frame != 0; frame = steps.frames[static_cast<std::size_t>(frame)].parent) {
+            const Skeleton::Turn& turn = steps.frames[static_cast<std::size_t>(frame)];
+            if (turn.by_quaternion || !is_constant(turn.angle) ||
+                !std::all_of(turn.axis.begin(), turn.axis.end(), is_constant))
+                break;
+        }
+        return frame;
+    };
+    std::optional<int> frame;
+    while (std::find(ends.begin(), ends.end(), at) == ends.end()) {
+        const Skeleton::Step& step = steps.points[static_cast<std::size_t>(at)];
+        if (!std::all_of(step.offset.begin(), step.offset.end(), is_constant)) return false;
+        if (frame.value_or(rigid(step.frame)) != rigid(step.frame)) return false;
+        frame = rigid(step.frame);
+        at = step.from;
+    }
+    // The axes of N are those of no body that turns.
+    return std::none_of(here.scene.bodies.begin(), here.scene.bodies.end(), [&](const Body& b) {
+        return frame == 0 && b.frame.text != "N" && here.places.point(b.point().text) == at;
+    });
+}
+
 /// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or body. The
 /// axes of N are those of no body that turns: a point at a constant distance along them runs through the body.
 bool is_fixed_in_a_body(Building& here, const std::string& point) {
+    if (is_fixed_by_construction(here, point)) return true;
     std::vector<std::string> places, axes;
     std::set<std::string> turning;  // places beside which N does not count
     for (const Body& b : here.scene.bodies)
@@ -222,7 +258,7 @@ bool is_fixed_in_a_body(Building& here, const std::string& point) {
             for (int k = 0; k < 3; ++k) components.push_back(dot(away, o.axis(k), *here.m.z));
             const std::vector<ex> rates = here.m.time_derivative(components);
             return std::all_of(rates.begin(), rates.end(),
-                               [&](const ex& rate) { return rate.is_zero() || vanishes(rate, here.m) == true; });
+                               [&](const ex& rate) { return vanishes(rate, here.m) != false; });
         });
     });
 }

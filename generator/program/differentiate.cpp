@@ -158,24 +158,26 @@ public:
         return result;
     }
 
-    /// d(dE/dt)/d state, given the Jacobian: the power is a function of state, u' and multipliers.
-    std::optional<std::vector<int>> power_gradient(const Matrix& jacobian) {
+    /// d(dE/dt)/d by, given the Jacobian by the same: the power is a function of state, parameters, u' and
+    /// multipliers.
+    std::optional<std::vector<int>> power_gradient(const std::vector<int>& by, const Matrix& jacobian) {
         const std::vector<int> power = p_.nodes_of(Group::power), acceleration = p_.nodes_of(Group::acceleration);
-        std::vector<int> inputs = state_;
+        std::vector<int> inputs = by;
         std::map<int, int> row_of;  // node: row of the Jacobian that holds its derivative
         for (int i = 0; i < s_; ++i) {
             row_of.emplace(acceleration[static_cast<std::size_t>(i)], n_ + i);
             row_of.emplace(p_.variable({Variable::Kind::acceleration, i}), n_ + i);
         }
-        for (const int id : state_) row_of.erase(id);
+        for (const std::vector<int>& known : {state_, by})
+            for (const int id : known) row_of.erase(id);
         for (const auto& [id, row] : row_of)
             if (!p_[id].is_number()) inputs.push_back(id);
         const auto parts = partials(p_, power, inputs, EliminationOrder::reverse, budget_);
         if (!parts) return std::nullopt;
-        std::vector<std::vector<Program::Term>> sums(state_.size());
+        std::vector<std::vector<Program::Term>> sums(by.size());
         for (const Partial& part : *parts) {
             const auto k = static_cast<std::size_t>(part.input);
-            if (k < state_.size()) {
+            if (k < by.size()) {
                 sums[k].emplace_back(1, part.node);
                 continue;
             }
@@ -379,12 +381,17 @@ std::optional<Differentiated> differentiated(const Program& program, const Deriv
     auto& [route, chosen, jacobian] = *best;
     chosen.keep(Group::jacobian, "J", jacobian);
     if (wishes.parameters && !program.parameters.empty()) {
-        const auto by_parameters = jacobian_by(route, chosen, chosen.parameters());
+        auto by_parameters = jacobian_by(route, chosen, chosen.parameters());
         if (!by_parameters) return std::nullopt;
+        if (wishes.power) {
+            auto gradient = chosen.power_gradient(chosen.parameters(), *by_parameters);
+            if (!gradient) return std::nullopt;
+            by_parameters->push_back(*std::move(gradient));
+        }
         chosen.keep(Group::parameter_jacobian, "P", *by_parameters);
     }
     if (wishes.power) {
-        const auto gradient = chosen.power_gradient(jacobian);
+        const auto gradient = chosen.power_gradient(chosen.state(), jacobian);
         if (!gradient) return std::nullopt;
         chosen.keep(Group::power_gradient, "W", {*gradient});
     }

@@ -24,9 +24,10 @@
 ///
 /// Groups of roots: Group::jacobian, (n + s) × (n + s); with `parameters` Group::parameter_jacobian, (n + s) × p,
 /// with respect to the parameters that a caller sets, before `prepare`; with `power` Group::power_gradient, n + s,
-/// the gradient of dE/dt as a function of the state; with `values` Group::value_gradient, the derivatives of T, V,
-/// E, the power, the outputs and the speeds, in this order, (n + s + s + p) entries each: by the state, by u' and
-/// by the parameters. u' depends on state and parameters itself, which the entries by u' leave to the caller.
+/// the gradient of dE/dt as a function of the state, and a further row of Group::parameter_jacobian, its gradient
+/// by the parameters; with `values` Group::value_gradient, the derivatives of T, V, E, the power, the outputs and
+/// the speeds, in this order, (n + s + s + p) entries each: by the state, by u' and by the parameters. u' depends
+/// on state and parameters itself, which the entries by u' leave to the caller.
 
 #include <optional>
 #include <string>

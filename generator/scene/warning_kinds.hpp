@@ -9,11 +9,11 @@
 
 namespace alembert {
 
-inline constexpr std::array<std::string_view, 17> warning_kinds{
+inline constexpr std::array<std::string_view, 18> warning_kinds{
     "unit_mismatch",   "unused",       "no_effect",         "no_length",
     "initial_values",  "no_inertia",   "suspicious_number", "redundant",
     "added_equations", "moving_place", "quotient_of_size",  "before_impulses",
     "poles",           "gimbal_lock",  "not_a_number",      "unknown_unit",
-    "nearly_redundant"};
+    "nearly_redundant", "left_out"};
 
 }  // namespace alembert

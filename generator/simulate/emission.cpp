@@ -45,26 +45,47 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
             say("a main program beside the equations follows no contacts, dry friction nor events that change the "
                 "motion, and this scene has some; use 'alembert simulate', or the library"));
     const Start start = assembled(m);
+    std::vector<StopEvent> stops;
+    for (std::size_t k = 0; k < m.event_actions.size(); ++k)
+        if (m.event_actions[k].stop) stops.push_back({static_cast<int>(k), m.event_actions[k].direction});
     return standalone(program,
                       {.t = start.t,
                        .state = state_in(start, e),
                        .duration = start.duration,
                        .tolerance = start.tolerance,
-                       .quick_times = quick_times(program, start.parameters, start.t, start.t + start.duration)},
+                       .quick_times = quick_times(program, start.parameters, start.t, start.t + start.duration),
+                       .stops = stops},
                       language);
 }
 
-/// The state of the calling example: coordinates that follow from the constraints with 12 digits, so that the same
-/// text is written everywhere; none if the scene has no initial state.
+/// The state of the calling example: coordinates that follow from the constraints with 12 digits in the C++
+/// source, so that the same text is written everywhere, and with all in headers and data; none if the scene has no
+/// initial state.
 void add_example(EmitOptions& options, const Emission& e) try {
     const Start start = start_of(e.mechanism);
     const std::vector<double> given = state_in(start, e);
     std::vector<double> state = state_in(assembled(e.mechanism), e);
-    for (std::size_t i = 0; i < state.size(); ++i)
-        if (state[i] != given[i]) state[i] = std::stod(fmt::format("{:.12g}", state[i]));
     options.t = start.t;
+    options.initial = state;
+    for (std::size_t i = 0; i < state.size() && options.language == CodeLanguage::cpp; ++i)
+        if (state[i] != given[i]) state[i] = std::stod(fmt::format("{:.12g}", state[i]));
     options.state = state;
 } catch (const ModelError&) {  // the equations hold without one
+}
+
+/// What the scene says of parameters and coordinates: values in units that are not of the SI, and `about`.
+std::map<std::string, std::string> notes_of(const Emission& e) {
+    std::map<std::string, std::string> notes;
+    const auto add = [&](const auto& items) {
+        for (const auto& item : items) {
+            std::string& note = notes[item.name.text];
+            if (!item.shown.unit.empty()) note = item.shown.value + " " + item.shown.unit;
+            if (!item.about.empty()) note += (note.empty() ? "" : ", ") + item.about;
+        }
+    };
+    add(e.scene.parameters);
+    add(e.scene.coordinates);
+    return notes;
 }
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
@@ -152,8 +173,17 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     if (options.standalone && options.language == CodeLanguage::javascript)
         throw ModelError(say("a main program beside the equations is in C++ or C; leave out --standalone"));
     for (const std::string& place : options.frames) check_place(scene, place);
+    if (!options.name.empty() && ascii_identifier(options.name) != options.name)
+        throw ModelError(
+            say("{} is no name for a file and a namespace; expected letters without accents, digits "
+                "and _, the first of them a letter",
+                in_quotes(options.name)));
     for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
+    if (!e.mechanism.unilateral.empty() || e.mechanism.has_kicks())
+        e.warn("left_out", say("warning: contacts and impulses of events, which change the motion, are left out "
+                               "of emitted functions, "
+                               "which hold between them; 'alembert simulate' and the library follow them\n"));
     e.choice = lowered(e, options.fold);
     if (options.jacobian || options.casadi) {
         e.derivatives = derivatives_of(e, e.choice.program, {.parameters = true, .power = true}, options.fold);
@@ -163,7 +193,14 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     }
     Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
     e.functions = named_functions(program, e, options);
-    EmitOptions text{.batch = options.batch, .language = options.language, .functions = e.functions};
+    if (!options.name.empty()) program.name = options.name;
+    EmitOptions text{.batch = options.batch,
+                     .language = options.language,
+                     .functions = e.functions,
+                     .notes = notes_of(e),
+                     .command = options.command,
+                     .has_norms = std::any_of(e.mechanism.constraints.begin(), e.mechanism.constraints.end(),
+                                              [](const Mechanism::Constraint& c) { return c.norm; })};
     add_example(text, e);
     e.source = emit(program, text);
     if (options.standalone) e.main = main_program(e, program, options.language);

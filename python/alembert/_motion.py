@@ -28,6 +28,8 @@ class Run(Result):
         self.columns = run.columns
         self.table = run.table
         self.failure = run.failure
+        if self.failure:
+            warn([f"the motion broke off: {self.failure}"])
 
     def __getstate__(self):
         return {**self.__dict__, "_run": None, "_text": repr(self)}

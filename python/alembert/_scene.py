@@ -220,14 +220,14 @@ class Scene:
         return Robot(self, functions, frames, by)
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
-             frames=(), wrenches=(), batch=False, casadi=False, by=""):
+             frames=(), wrenches=(), batch=False, casadi=False, by="", name=""):
         """The C++ (or C, or JavaScript) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
         if language not in ("cpp", "c", "js"):
             raise ValueError(f"language={language!r}: there are 'cpp', 'c' and 'js'")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
                           jacobian=jacobian, functions=list(functions), frames=list(frames), wrenches=list(wrenches),
-                          batch=batch, casadi=casadi, by=by)
+                          batch=batch, casadi=casadi, by=by, name=name)
         if folder is not None:
             _os.makedirs(folder, exist_ok=True)
             for name, text in found.sources.items():

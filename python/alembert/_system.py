@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Compiled functions of a scene over arrays of states."""
 
+import unicodedata
+
 from . import _alembert
 from ._results import warn
 
@@ -18,28 +20,44 @@ class System:
     """
 
     def __init__(self, scene, by="", jacobian=True, functions=(), frames=()):
-        self._system, said = _alembert.system(scene.text, scene.name, by, jacobian, list(functions), list(frames))
+        self._system, said, names = _alembert.system(scene.text, scene.name, by, jacobian, list(functions), list(frames))
         warn(said)
+        self.coordinates, self.speeds, self._parameters = names
+        self._bind()
+
+    def _bind(self):
         self.rhs = self._system.rhs  # directly, without a Python call between
         self.jacobian = self._system.jacobian
         self.mass_matrix = self._system.mass_matrix
         self.energy = self._system.energy
         self.dimension = self._system.dimension
-        self.coordinates = self._system.coordinates
-        self.speeds = self._system.speeds
+
+    def __copy__(self):
+        """A system with parameters of its own."""
+        same = object.__new__(type(self))
+        same.__dict__.update(self.__dict__, _system=self._system.copy())
+        same._bind()
+        return same
+
+    def __deepcopy__(self, memo):
+        return self.__copy__()
 
     @property
     def parameters(self):
-        """Names and values."""
-        return dict(zip(self._system.parameter_names, self._system.parameter_values))
+        """Names, as the scene writes them, and values."""
+        return dict(zip(self._parameters, self._system.parameter_values))
 
-    def set(self, **values):
-        """Other values for parameters: system.set(m=2, l=0.5)."""
+    def set(self, values=None, /, **more):
+        """Other values for parameters: system.set(m=2, l=0.5), or system.set({"lambda": 2}) for names that are words of
+        Python."""
         new = self.parameters
-        for name, value in values.items():
-            if name not in new:
+        for name, value in {**(values or {}), **more}.items():
+            known = name if name in new else unicodedata.normalize("NFKC", name)
+            if known not in new:  # Python writes identifiers in that form
+                known = next((one for one in new if unicodedata.normalize("NFKC", one) == known), None)
+            if known is None:
                 raise KeyError(f"no parameter '{name}'; there are {', '.join(new)}")
-            new[name] = float(value)
+            new[known] = float(value)
         self._system.set_parameters(list(new.values()))
 
     @property
@@ -78,6 +96,10 @@ class RobotFunction:
         self._is_matrix = columns > 1 or name.endswith(_MATRICES)
         self.shape = (rows, columns) if self._is_matrix else (rows,)
 
+    def of(self, system):
+        """The same function of another system."""
+        return RobotFunction(system, self.name, self._which)
+
     def __call__(self, q, v=None, a=None, *, t=0.0):
         import numpy
 
@@ -103,6 +125,11 @@ class Robot(System):
         super().__init__(scene, by, False, functions, frames)
         names = self._system.functions
         self.functions = {name: RobotFunction(self._system, name, which) for which, name in enumerate(names)}
+
+    def _bind(self):
+        super()._bind()
+        if "functions" in self.__dict__:
+            self.functions = {name: f.of(self._system) for name, f in self.functions.items()}
 
     def __getattr__(self, name):
         functions = self.__dict__.get("functions", {})

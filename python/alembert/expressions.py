@@ -10,6 +10,8 @@ the scene leaves open, V(r), is an undefined function of SymPy, and diff(V(r), r
 
 import re
 
+from . import _alembert
+
 _TOKEN = re.compile(r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|([^\W\d]\w*)('*)|([-+*/^(),=]))")
 _RENAMED = {"asin": "asin", "acos": "acos", "abs": "Abs", "min": "Min", "max": "Max"}
 _LANGUAGE = {"Abs": "abs", "Min": "min", "Max": "max"}
@@ -111,11 +113,12 @@ class _Parser:
 
 
 def to_sympy(text, functions=()):
-    """`text`, an expression or an equation of the scene language, as SymPy's. Decimals become exact rationals.
+    """`text`, an expression or an equation of the scene language, as SymPy's, in all spellings that a scene may have
+    ("ln(x)", "x²", "arcsin(x)"). Decimals become exact rationals.
 
     Raises ValueError for a text that is none (vector functions and primes of parentheses are not read).
     """
-    parser = _Parser(text, functions)
+    parser = _Parser(_alembert.in_words_of_scenes(text), functions)
     value = parser.sum()
     if parser.take("="):
         value = parser.sympy.Eq(value, parser.sum(), evaluate=False)

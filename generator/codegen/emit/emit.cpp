@@ -11,6 +11,7 @@
 #include "codegen/emit/comment.hpp"
 #include "codegen/emit/elementary.hpp"
 #include "codegen/emit/head.hpp"
+#include "codegen/emit/interface.hpp"
 #include "codegen/emit/layout.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/solver_functions.hpp"
@@ -74,6 +75,13 @@ EmittedFunction calling(const FunctionTask& task, const std::string& function, c
     return result;
 }
 
+/// With one empty line where there are several: parts of a template may be left out.
+std::string without_gaps(std::string text) {
+    for (std::size_t at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n", at))
+        text.erase(at, 1);
+    return text;
+}
+
 class SolverFile {
 public:
     SolverFile(const Program& program, const EmitOptions& options)
@@ -89,6 +97,7 @@ public:
         add_counts();
         set_elementary(file_, elementary_functions(p_));
         file_.set("batch", options_.batch);
+        file_.set("types", true);
         add_elementary(file_);
         add_javascript();
         const std::string name = ascii_identifier(p_.name);
@@ -106,10 +115,13 @@ public:
                     .text = rendered(template_solver_js),
                     .operations = cost,
                     .formulation = p_.formulation};
+        describe_interface(file_, p_, words_, tasks_, options_);
+        file_.set("header_head", commented(header_head_of(p_, words_, options_), options_.language));
         return {.file = name + ".cpp",
-                .text = rendered(template_solver),
+                .text = without_gaps(rendered(template_solver)),
                 .operations = cost,
-                .formulation = p_.formulation};
+                .formulation = p_.formulation,
+                .header = SourceFile{name + ".hpp", without_gaps(rendered(template_solver_hpp))}};
     }
 
 private:
@@ -118,10 +130,21 @@ private:
         for (const EmittedFunction& function : list) functions_ << data_of(function);
         file_.set("has_" + name, !list.empty());
     }
-    void add(const FunctionTask& task) { add(written(p_, words_, task, options_), task.name); }
+    void add(const FunctionTask& task) {
+        const std::vector<EmittedFunction> list = written(p_, words_, task, options_);
+        add(list, task.name);
+        if (!list.empty()) tasks_.push_back(task);
+    }
 
     void add_functions() {
-        add(prepare(p_, words_, options_.language), "prepare");
+        const std::vector<EmittedFunction> constants = prepare(p_, words_, options_.language);
+        add(constants, "prepare");
+        if (!constants.empty())
+            tasks_.push_back({.name = "prepare",
+                              .about = constants.back().about,
+                              .arguments = {{"Real*", "par"}},
+                              .goals = {},
+                              .results = {}});
         const FunctionTask rates = right_hand_side(p_, words_), multipliers = multipliers_at(p_);
         const bool together = options_.shares_multipliers && is_shared(rates, multipliers);
         if (together)
@@ -185,6 +208,7 @@ private:
         mustache::data list{mustache::data::type::list};
         for (const NamedFunction& function : options_.functions) {
             const FunctionTask task = named_function(p_, function);
+            tasks_.push_back(task);
             for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << data_of(part);
             mustache::data entry;
             entry.set("name", function.name);
@@ -270,6 +294,7 @@ private:
     Vocabulary words_;
     mustache::data file_;
     mustache::data functions_{mustache::data::type::list};
+    std::vector<FunctionTask> tasks_;  ///< that have a function of their own in the file
 };
 
 }  // namespace

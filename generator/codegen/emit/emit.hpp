@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Writes straight-line code as a C++ file, as a C99 file with its header, or as a JavaScript module.
+/// Writes straight-line code as a C++ file or a C99 file, each with its header, or as a JavaScript module.
 ///
 ///     const Source source = emit(program);
 ///     source.file;   // "double_pendulum.cpp"
+///     source.header->name;              // "double_pendulum.hpp"
 ///     emit(program, {.batch = true});   // with the same functions over eight systems at once
 ///
 /// The functions of the file are rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for values
@@ -12,7 +13,10 @@
 /// templates/solver.cpp.mustache, and templates/solver.js.mustache for JavaScript. A program that has been
 /// differentiated (program/differentiate.hpp) also gets `jacobian` and a table of derivatives.
 
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "codegen/emit/statement.hpp"
 #include "program/named_function.hpp"
@@ -29,7 +33,7 @@ struct Source {
     std::string file, text;
     Operations operations;  ///< of one right-hand side
     std::string formulation;
-    std::optional<SourceFile> header = {};  ///< the header of a C file
+    std::optional<SourceFile> header = {};  ///< the header of a C or C++ file
 };
 
 struct EmitOptions {
@@ -43,6 +47,14 @@ struct EmitOptions {
     bool shares_multipliers = false;
     double t = 0;                    ///< of the calling example at the head of the file, in s
     std::vector<double> state = {};  ///< likewise: (q, q') or (q, u); zeros if empty
+    /// The state that the C++ header has as data, with all its digits; `state` if empty.
+    std::vector<double> initial = {};
+    /// What a header says of a name beside its unit: "31 deg, slope".
+    std::map<std::string, std::string> notes = {};
+    std::string command = {};  ///< that makes the file, for its head; none if empty
+    /// Whether norms of quaternions are constraints, for which the M that is solved has a term besides that of T
+    /// (program/lower/equations.cpp); for the head.
+    bool has_norms = false;
 };
 
 /// Throws ModelError if the program has no accelerations (a singular system), for packs in C or JavaScript, and

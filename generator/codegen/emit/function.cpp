@@ -78,6 +78,17 @@ std::set<std::string> used_in(const std::vector<Passage>& passages, const std::v
     return used;
 }
 
+/// Leaves out angles that were named and are not read: sines of a sum may come from those of its terms.
+void leave_out_unread(std::vector<Passage>& passages) {
+    const std::set<std::string> read = used_in(passages, {});
+    for (Passage& passage : passages)
+        std::erase_if(passage.statements, [&](const CodeStatement& statement) {
+            return !statement.names.empty() &&
+                   std::none_of(statement.names.begin(), statement.names.end(),
+                                [&](const std::string& name) { return read.contains(name); });
+        });
+}
+
 /// All statements, each result as soon as it is known, so that it need not be carried to the last part. Rates come
 /// last, since a caller may have one array for state and rate.
 std::vector<CodeStatement> with_early_results(const FunctionTask& task, const std::vector<Passage>& passages) {
@@ -169,6 +180,7 @@ std::vector<EmittedFunction> written(const Program& program, const Vocabulary& w
     for (const FunctionResult& result : task.results)
         last.statements.push_back(writer.assigned(result.array, place_of(result), result.node));
     passages.push_back(std::move(last));
+    leave_out_unread(passages);
     std::vector<ArrayInput> items = words.inputs(writer.uses(), !task.copies.empty());
     if (options.language != CodeLanguage::cpp) {  // C compilers warn about names that are not used
         const std::set<std::string> read = used_in(passages, {});

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "codegen/emit/comment.hpp"
+#include "codegen/emit/interface.hpp"
 #include "codegen/emit/layout.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/solver_functions.hpp"
@@ -26,10 +27,11 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 class Head {
 public:
-    Head(const Program& p, const Vocabulary& words, const EmitOptions& options)
+    Head(const Program& p, const Vocabulary& words, const EmitOptions& options, bool is_header)
         : p_(p),
           words_(words),
           options_(options),
+          is_header_(is_header),
           scene_(ascii_identifier(p.name)),
           n_(words.q().size()),
           s_(words.u().size()),
@@ -38,10 +40,12 @@ public:
 
     Items lines() {
         lines_ = {
+            "SPDX-License-Identifier: MIT",
             fmt::format("Equations of motion of '{}': {}.", scene_, comment_text(p_.formulation)),
             fmt::format("Written by alembert {} from a scene; may be used, changed and passed on freely (MIT).",
-                        ALEMBERT_VERSION),
-            ""};
+                        ALEMBERT_VERSION)};
+        if (!options_.command.empty()) lines_.push_back("  " + comment_text(options_.command));
+        lines_.emplace_back();
         equation();
         lines_.emplace_back();
         arguments();
@@ -54,7 +58,10 @@ public:
         lines_.insert(lines_.end(), {"", example_title(), ""});
         switch (options_.language) {
             case CodeLanguage::cpp:
-                example_in_cpp();
+                if (is_header_)
+                    example_of_header();
+                else
+                    example_in_cpp();
                 break;
             case CodeLanguage::c:
                 example_in_c();
@@ -108,6 +115,10 @@ private:
                                          "C99; nothing is allocated, no function keeps state, and the library of "
                                          "mathematics is all that is needed.",
                                          "With -DALEMBERT_REAL=float all numbers are floats."});
+        } else if (is_header_) {
+            lines_.insert(lines_.end(),
+                          {text + ".", fmt::format("Declares what {}.cpp has, for C++17 and later.", scene_),
+                           "Any number of systems can be in one program, and no function keeps state."});
         } else {
             lines_.insert(lines_.end(), {text + ".",
                                          "This file includes nothing and allocates nothing. Real is "
@@ -147,7 +158,13 @@ private:
         const std::size_t constraints = constraints_of(p_);
         const auto of = [&](const char* function, const std::string& arrays) { entry(function, {arrays}); };
         if (count(Group::mass) > 0)
-            of("mass_forcing", fmt::format("mass[{}], M row by row; forcing[{}], f", s_ * s_, s_));
+            of("mass_forcing",
+               fmt::format(
+                   fmt::runtime(options_.has_norms
+                                    ? "mass[{}], M + c A^T A row by row; forcing[{}], f + c A^T gamma, with a "
+                                      "c for the norm of each quaternion"
+                                    : "mass[{}], M row by row; forcing[{}], f"),
+                   s_ * s_, s_));
         if (count(Group::kinetic) > 0)
             of("energy",
                "energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]");
@@ -162,8 +179,12 @@ private:
         if (constraints > 0)
             of("constraints_at", fmt::format("position[{0}], velocity[{0}]; rows[{1}], A row by row", constraints,
                                              constraints * (n_ + (p_.speeds.empty() ? 0 : s_))));
-        if (count(Group::multiplier) > 0)
-            of("multipliers_at", fmt::format("lambda[{}]", count(Group::multiplier)));
+        if (constraints > 0) constraint_rows();
+        if (count(Group::multiplier) > 0) {
+            Items names = root_names(p_, {Group::multiplier});
+            names.front() = fmt::format("lambda[{}]: {}", names.size(), names.front());
+            entry("multipliers_at", names);
+        }
         if (count(Group::projected) > 0)
             of("project", fmt::format("{}[{}], position[{}], pivots[{}]",
                                       options_.language == CodeLanguage::c ? "moved" : "out",
@@ -172,6 +193,17 @@ private:
             of("jacobian", fmt::format("values[{}]", jacobian(p_).rows.size()));
         if (!p_.nodes_of(Group::event_impulse).empty())
             of("impulses_at", fmt::format("out[{}]", count(Group::event_impulse)));
+    }
+
+    /// The rows of A by their names.
+    void constraint_rows() {
+        Items rows;
+        for (const Group group : {Group::velocity, Group::redundant_velocity})
+            for (const Root& root : p_.roots)
+                if (root.group == group)
+                    rows.push_back(comment_text(root.name) +
+                                   (group == Group::velocity ? "" : " (follows from the others)"));
+        entry("rows of A", rows);
     }
 
     std::string example_title() const {
@@ -186,7 +218,8 @@ private:
             case CodeLanguage::cpp:
                 break;
         }
-        return title + " Compile it with c++ -std=c++20 -O2 example.cpp";
+        return title + (is_header_ ? fmt::format(" Compile it with c++ -O2 example.cpp {}.cpp", scene_)
+                                   : " Compile it with c++ -std=c++20 -O2 example.cpp");
     }
 
     /// The line `before` + numbers + `after`, broken.
@@ -206,18 +239,33 @@ private:
         lines_.push_back(line);
     }
 
+    void example_of_header() {
+        const std::string space = namespace_of(p_);
+        lines_.insert(
+            lines_.end(),
+            {"  #include <cstdio>", fmt::format("  #include \"{}.hpp\"", scene_), "", "  int main() {",
+             fmt::format("      const {0}::State state = {0}::initial_state;", space),
+             fmt::format("      const {0}::Parameters par = {0}::defaults();", space),
+             fmt::format("      const {0}::State rate = {0}::rhs({0}::initial_time, state, par);", space),
+             fmt::format("      for (int k = 0; k < {0}::state_size; ++k) std::printf(\"%.17g\\n\", "
+                         "{0}::numbers(rate)[k]);",
+                         space),
+             "  }"});
+    }
+
     void example_in_cpp() {
+        const std::string space = namespace_of(p_);
         lines_.insert(lines_.end(),
                       {"  #include <cstdio>", fmt::format("  #include \"{}.cpp\"", scene_), "", "  int main() {"});
         numbers(fmt::format("      const double state[{}] = {{", n_ + s_));
         lines_.push_back(fmt::format("      double par[{}]{}, rate[{}];", std::max<std::size_t>(length_, 1),
                                      length_ > 0 ? "" : " = {}", n_ + s_));
         if (parameters_ > 0)
-            lines_.push_back(
-                fmt::format("      for (int k = 0; k < {}; ++k) par[k] = parameter_values[k];", parameters_));
-        if (length_ > parameters_) lines_.emplace_back("      prepare(par);");
+            lines_.push_back(fmt::format("      for (int k = 0; k < {}; ++k) par[k] = {}::parameter_values[k];",
+                                         parameters_, space));
+        if (length_ > parameters_) lines_.push_back(fmt::format("      {}::prepare(par);", space));
         lines_.insert(lines_.end(),
-                      {fmt::format("      rhs({}, state, par, rate);", real_literal(options_.t)),
+                      {fmt::format("      {}::rhs({}, state, par, rate);", space, real_literal(options_.t)),
                        "      for (const double value : rate) std::printf(\"%.17g\\n\", value);", "  }"});
     }
 
@@ -253,6 +301,7 @@ private:
     const Program& p_;
     const Vocabulary& words_;
     const EmitOptions& options_;
+    bool is_header_;
     std::string scene_;
     std::size_t n_, s_, parameters_, length_;
     Items lines_;
@@ -261,7 +310,12 @@ private:
 }  // namespace
 
 std::vector<std::string> head_of(const Program& program, const Vocabulary& words, const EmitOptions& options) {
-    return Head(program, words, options).lines();
+    return Head(program, words, options, false).lines();
+}
+
+std::vector<std::string> header_head_of(const Program& program, const Vocabulary& words,
+                                        const EmitOptions& options) {
+    return Head(program, words, options, true).lines();
 }
 
 }  // namespace alembert

@@ -16,5 +16,8 @@ namespace alembert {
 
 /// The lines of the comment, without the signs of the comment itself.
 std::vector<std::string> head_of(const Program& program, const Vocabulary& words, const EmitOptions& options);
+/// Of the header of a C++ file.
+std::vector<std::string> header_head_of(const Program& program, const Vocabulary& words,
+                                        const EmitOptions& options);
 
 }  // namespace alembert

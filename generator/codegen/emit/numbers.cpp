@@ -52,10 +52,12 @@ std::string number_text(const Rational& value, CodeLanguage language) {
     const cln::cl_I largest = cln::expt_pos(cln::cl_I(2), 53);
     if (denominator == 1 && cln::abs(numerator) <= largest) return literal(digits(numerator), language);
     const double nearest = nearest_double(value);
-    // A decimal such as 9.81 is written with its digits; 1/3 is left to the division of Real.
+    // In JavaScript a decimal such as 9.81 is written with its digits; else what no double is, 1/3, is left to the
+    // division of Real, which has more digits or less.
     cln::cl_I rest = denominator;
     while (cln::zerop(cln::mod(rest, 2))) rest = cln::exquo(rest, 2);
-    while (cln::zerop(cln::mod(rest, 5))) rest = cln::exquo(rest, 5);
+    if (language == CodeLanguage::javascript)
+        while (cln::zerop(cln::mod(rest, 5))) rest = cln::exquo(rest, 5);
     if (rest != 1 && cln::abs(numerator) <= largest && denominator <= largest)
         return fmt::format("({} / {})", literal(digits(numerator), language),
                            literal(digits(denominator), language));

@@ -24,6 +24,10 @@ bool may_be_macro(std::string_view name);
 bool is_reserved(std::string_view name);
 
 /// What a module of JavaScript must not use as a name beside these.
+/// Whether a header of the libraries of C declares a function or type of this name outside of any namespace, which
+/// a scene may well be called after: time, link, clock, pause …
+bool is_function_of_c(std::string_view name);
+
 std::span<const std::string_view> javascript_words();
 
 }  // namespace alembert

@@ -280,7 +280,7 @@ SparseTask jacobian(const Program& p) {
 
 SparseTask parameter_jacobian(const Program& p) {
     return sparse({.name = "parameter_jacobian",
-                   .about = "d rate / d parameter where it is not zero at every state.",
+                   .about = "d rate / d parameter where it is not zero at every state; row n + s: of the power.",
                    .arguments = {t, state, par, to("values")},
                    .goals = {},
                    .results = {}},

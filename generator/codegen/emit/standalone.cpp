@@ -58,6 +58,13 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("has_quick", !quick.empty());
     file.set("quick_times", std::to_string(quick.size()));
     file.set("quick", fmt::format("{}", fmt::join(quick, ",\n")));
+    std::vector<int> events, directions;
+    for (const StopEvent& stop : start.stops) events.push_back(stop.event), directions.push_back(stop.direction);
+    file.set("has_stop", !events.empty());
+    file.set("events", std::to_string(program.nodes_of(Group::event).size()));
+    file.set("stops_count", std::to_string(events.size()));
+    file.set("stop_events", fmt::format("{}", fmt::join(events, ", ")));
+    file.set("stop_directions", fmt::format("{}", fmt::join(directions, ", ")));
     file.set("projection", projection_text(program, language));
     file.set("initial", initial);
     file.set("columns", columns);

@@ -13,12 +13,18 @@
 
 namespace alembert {
 
+/// An event that ends the motion where its function passes zero: up (+1), down (−1), or in both directions (0).
+struct StopEvent {
+    int event, direction;
+};
+
 struct StandaloneStart {
     double t = 0;               ///< s
     std::vector<double> state;  ///< q, then u
     double duration = 10;       ///< s
     double tolerance = 1e-9;    ///< the tolerance of a step, relative to max(1, |y|)
     std::vector<QuickTime> quick_times = {};
+    std::vector<StopEvent> stops = {};
 };
 
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language);

@@ -3,9 +3,11 @@
 
 /// The binary interface between an emitted solver and whoever runs it.
 ///
-/// An emitted file exports one C function, `alembert_solver()`, that returns the table below. The emitted file
-/// includes nothing, so it carries its own copy of the struct (templates/solver.cpp.mustache). If you change one
-/// of the two, change the other and raise `abi_version`; a test compares them word for word.
+/// A module, which is loaded while a program runs, exports one C function, `alembert_solver()`, that returns the
+/// table below, and others for further tables (`module_entries`). An emitted file that is linked with a program
+/// exports `NAME_tables()`, NAME being that of its scene, with all tables in one. The emitted file includes
+/// nothing, so it carries its own copy of the structs (templates/solver.cpp.mustache). If you change one of the
+/// two, change the other and raise `abi_version`; a test compares them word for word.
 ///
 /// Arrays (all row-major, all doubles, SI or whatever units the scene uses throughout):
 ///   state  n + s    coordinates q, then speeds u: the rates q' (s = n) unless the equations are in others
@@ -64,7 +66,8 @@ struct alembert_derivative_table {
     int entries;            ///< number of entries of d rate / d state
     int parameter_entries;  ///< number of entries of d rate / d parameter
     int operations;         ///< number of operations of one call of `jacobian`
-    const int* rows;        ///< the row of each entry; row n + s, one more than the rates, is that of the power
+    const int* rows;  ///< the row of each entry; row n + s, one more than the rates, is that of the power; so also
+                      ///< of `parameter_rows`
     const int* columns;
     const int* parameter_rows;
     const int* parameter_columns;  ///< among the p parameters that a caller sets; the derivatives include those of
@@ -74,7 +77,7 @@ struct alembert_derivative_table {
                                double* values);  ///< null if they are not wanted
 };
 
-/// A file of a system in which some constraints follow from others also exports
+/// A module of a system in which some constraints follow from others also exports
 /// `alembert_independent_constraints()`: the number r of the first constraints, from which the rest follow;
 /// elsewhere r = m.
 
@@ -125,8 +128,31 @@ struct alembert_function_table {
     const alembert_named_function* list;
 };
 
+/// What `NAME_tables()` returns: the tables above, null where the file has none. `linked` (module.hpp) takes it.
+struct alembert_tables {
+    const void* solver;
+    const void* derivatives;
+    const void* projection;
+    const void* pack;
+    const void* functions;
+    int independent_constraints;
+};
+
 }  // extern "C"
 
 namespace alembert {
+
 inline constexpr int abi_version = 4;
-}
+
+/// The `extern "C"` functions that a module may have; each returns the table of this name, the last a number.
+struct ModuleEntries {
+    const char* solver = "alembert_solver";
+    const char* derivatives = "alembert_derivatives";
+    const char* projection = "alembert_projection";
+    const char* pack = "alembert_pack";
+    const char* functions = "alembert_functions";
+    const char* independent_constraints = "alembert_independent_constraints";
+};
+inline constexpr ModuleEntries module_entries;
+
+}  // namespace alembert

@@ -35,34 +35,51 @@ std::filesystem::path own_file() {
     return found.dli_fname;
 }
 
-Module load(const std::filesystem::path& object) {
-    const ObjectFile file(object);
-    using Entry = const alembert_solver_table* (*)();
-    const auto entry = reinterpret_cast<Entry>(file.find("alembert_solver"));
-    const alembert_solver_table* const table = entry != nullptr ? entry() : nullptr;
-    if (table == nullptr) throw CompileError(object.string() + " is not a solver: it has no alembert_solver()");
+namespace {
+
+/// `alive` keeps the tables alive; `name` is that of the file in messages.
+Module module_of(const alembert_tables& all, const std::shared_ptr<const void>& alive, const std::string& name) {
+    const auto* const table = static_cast<const alembert_solver_table*>(all.solver);
     if (table->abi != abi_version)
         throw CompileError(
             fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
                         "emit it again",
-                        object.string(), table->abi, abi_version));
-    const auto further = [&]<class Table>(const char* name, const Table*& place) {
-        using Make = const Table* (*)();
-        const auto make = reinterpret_cast<Make>(file.find(name));
-        place = make != nullptr ? make() : nullptr;
+                        name, table->abi, abi_version));
+    return Module(std::shared_ptr<const alembert_solver_table>(alive, table),
+                  static_cast<const alembert_derivative_table*>(all.derivatives),
+                  static_cast<const alembert_projection_table*>(all.projection),
+                  static_cast<const alembert_pack_table*>(all.pack),
+                  static_cast<const alembert_function_table*>(all.functions), all.independent_constraints);
+}
+
+}  // namespace
+
+Module load(const std::filesystem::path& object) {
+    const ObjectFile file(object);
+    const auto called = [&](const char* name) {
+        using Entry = const void* (*)();
+        const auto entry = reinterpret_cast<Entry>(file.find(name));
+        return entry != nullptr ? entry() : nullptr;
     };
-    const alembert_derivative_table* derivatives = nullptr;
-    const alembert_projection_table* projection = nullptr;
-    const alembert_pack_table* pack = nullptr;
-    further("alembert_derivatives", derivatives);
-    further("alembert_projection", projection);
-    further("alembert_pack", pack);
-    const alembert_function_table* functions = nullptr;
-    further("alembert_functions", functions);
+    alembert_tables all{.solver = called(module_entries.solver),
+                        .derivatives = called(module_entries.derivatives),
+                        .projection = called(module_entries.projection),
+                        .pack = called(module_entries.pack),
+                        .functions = called(module_entries.functions),
+                        .independent_constraints = 0};
+    if (all.solver == nullptr)
+        throw CompileError(object.string() + " is not a solver: it has no alembert_solver()");
     using Count = int (*)();
-    const auto independent = reinterpret_cast<Count>(file.find("alembert_independent_constraints"));
-    return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), derivatives, projection,
-                  pack, functions, independent != nullptr ? std::optional(independent()) : std::nullopt);
+    const auto count = reinterpret_cast<Count>(file.find(module_entries.independent_constraints));
+    all.independent_constraints =
+        count != nullptr ? count() : static_cast<const alembert_solver_table*>(all.solver)->constraints;
+    return module_of(all, file.handle(), object.string());
+}
+
+Module linked(const void* tables) {
+    const auto& all = *static_cast<const alembert_tables*>(tables);
+    return module_of(all, std::shared_ptr<const void>(tables, [](const void*) {}),
+                     fmt::format("the system '{}'", static_cast<const alembert_solver_table*>(all.solver)->scene));
 }
 
 const alembert_named_function* Module::function(const std::string& name) const {

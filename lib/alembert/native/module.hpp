@@ -6,8 +6,13 @@
 ///     const Module module = load(compile(text, "pendulum", {}).object);
 ///     const int n = module.table().coordinates;
 ///
+/// A file that is linked with the program is one too, without a compiler or a file at run time:
+///
+///     #include "pendulum.hpp"                        // beside the emitted pendulum.cpp
+///     const Module module = linked(pendulum::tables());
+///
 /// `load` throws CompileError if the file does not load, has no `alembert_solver`, or was emitted for another
-/// version of the ABI (the message gives both numbers).
+/// version of the ABI (the message gives both numbers); `linked` in the last case.
 
 #include <filesystem>
 #include <memory>
@@ -79,6 +84,8 @@ private:
 };
 
 Module load(const std::filesystem::path& object);
+/// Of what `NAME_tables()` of an emitted file returns.
+Module linked(const void* tables);
 
 /// The array `par` of the ABI: `values` (the scene's own if empty) followed by the constants that `prepare`
 /// computes from them. Throws std::invalid_argument if there are too many or too few values, and for one

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "codegen/emit/interface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alembert/native/abi.hpp"
+#include "codegen/emit/comment.hpp"
+#include "codegen/emit/layout.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/reserved_words.hpp"
+
+namespace alembert {
+
+namespace {
+
+namespace mustache = kainjow::mustache;
+
+/// "const double* state" of "const Real* state"
+std::string in_doubles(const FunctionArgument& a) {
+    if (a.type == "const Real&") return "double " + a.name;
+    std::string type = a.type;
+    type.replace(type.find("Real"), 4, "double");
+    return type + " " + a.name;
+}
+
+/// The table that has the function, from which it is called: so there is one instance of each, which is inline
+/// there.
+std::string call_of(const std::string& name, std::size_t& named) {
+    for (const char* const of_table : {"prepare", "rhs", "mass_forcing", "energy", "outputs_at", "events_at",
+                                       "constraints_at", "multipliers_at"})
+        if (name == of_table) return "table." + name;
+    if (name == "project" || name == "gamma_at") return "projection." + name;
+    if (name == "jacobian" || name == "parameter_jacobian") return "derivatives." + name;
+    if (name == "tangent" || name == "impulses_at") return name;
+    return fmt::format("named_functions[{}].call", named++);
+}
+
+mustache::data export_of(const FunctionTask& task, std::size_t& named) {
+    std::string arguments, names;
+    for (const FunctionArgument& a : task.arguments) {
+        arguments += (arguments.empty() ? "" : ", ") + in_doubles(a);
+        names += (names.empty() ? "" : ", ") + a.name;
+    }
+    mustache::data result;
+    result.set("name", task.name);
+    result.set("call", call_of(task.name, named));
+    result.set("about", comment_text(task.about));
+    result.set("arguments", arguments);
+    result.set("names", names);
+    return result;
+}
+
+/// A member of a struct: its name, its value as given, and what it is.
+struct Member {
+    std::string name;
+    double value = 0;
+    std::string about = {};
+};
+
+mustache::data members_of(const std::vector<Member>& members) {
+    mustache::data list{mustache::data::type::list};
+    for (const Member& member : members) {
+        mustache::data one;
+        one.set("name", member.name);
+        one.set("value", shortest(member.value));
+        one.set("about", member.about.empty() ? "" : "  ///< " + comment_text(member.about));
+        list << one;
+    }
+    return list;
+}
+
+class Interface {
+public:
+    Interface(mustache::data& file, const Program& program, const Vocabulary& words, const EmitOptions& options)
+        : file_(file), p_(program), words_(words), options_(options) {}
+
+    void functions(const std::vector<FunctionTask>& tasks) {
+        mustache::data exports{mustache::data::type::list};
+        std::vector<std::string> visible{"parameter_values", "coordinate_names", "speed_names", "parameter_names",
+                                         "output_names",     "event_names",      "table"};
+        std::size_t named = 0;
+        for (const FunctionTask& task : tasks) {
+            exports << export_of(task, named);
+            if (task.name != "prepare" || !words_.constants().empty()) visible.push_back(task.name);
+        }
+        if (options_.batch)
+            for (const char* const name : {"pack", "systems", "packs", "for_each_pack", "pack_table"})
+                visible.emplace_back(name);
+        file_.set("exports", exports);
+        mustache::data names{mustache::data::type::list};
+        for (const std::string& name : visible) names << name;
+        file_.set("visible", names);
+    }
+
+    /// What a module exports (lib/alembert/native/module.cpp).
+    void entries() {
+        mustache::data list{mustache::data::type::list};
+        const auto add = [&](const char* type, const char* name, const char* member) {
+            mustache::data one;
+            one.set("type", type);
+            one.set("name", name);
+            one.set("member", member);
+            list << one;
+        };
+        const auto has = [&](const char* key) { return file_.get(key) != nullptr && file_.get(key)->is_true(); };
+        const char* const pointer = "const void*";
+        add(pointer, module_entries.solver, "solver");
+        if (options_.batch) add(pointer, module_entries.pack, "pack");
+        if (has("has_projection")) add(pointer, module_entries.projection, "projection");
+        if (has("has_redundant")) add("int", module_entries.independent_constraints, "independent_constraints");
+        if (has("has_derivatives")) add(pointer, module_entries.derivatives, "derivatives");
+        if (has("has_named_functions")) add(pointer, module_entries.functions, "functions");
+        file_.set("module_entries", list);
+    }
+
+    void structs() {
+        state();
+        parameters();
+        values("output_members", {Group::output, Group::speed});
+        values("event_members", {Group::event});
+        const auto count = [&](Group group) {
+            return std::to_string(std::max<std::size_t>(p_.nodes_of(group).size(), 1));
+        };
+        file_.set("position_count", count(Group::position));
+        file_.set("pivot_count", count(Group::pivot));
+    }
+
+private:
+    std::string about(const std::string& name, const std::string& unit) const {
+        const auto note = options_.notes.find(name);
+        const std::string of_scene = note != options_.notes.end() ? note->second : "";
+        const std::string own = unit.empty() ? "" : "[" + unit + "]";
+        return own + (own.empty() || of_scene.empty() ? "" : " ") + of_scene;
+    }
+
+    void state() {
+        const std::vector<double>& given = options_.initial.empty() ? options_.state : options_.initial;
+        std::vector<Member> members;
+        const auto add = [&](const std::string& name, const std::string& text) {
+            const std::size_t k = members.size();
+            members.push_back({name, k < given.size() ? given[k] : 0, text});
+        };
+        for (std::size_t i = 0; i < words_.q().size(); ++i)
+            add(words_.q()[i], about(p_.coordinates[i].name, p_.coordinates[i].unit));
+        for (std::size_t k = 0; k < words_.u().size(); ++k)
+            add(words_.u()[k], p_.speeds.empty() ? rate_unit(p_.coordinates[k].unit)
+                                                 : about(p_.speeds[k].name, p_.speeds[k].unit));
+        file_.set("state_members", members_of(members));
+        file_.set("initial_time", shortest(options_.t));
+    }
+
+    static std::string rate_unit(const std::string& unit) { return unit.empty() ? "" : "[" + unit + "/s]"; }
+
+    void parameters() {
+        std::vector<Member> members;
+        for (std::size_t k = 0; k < words_.par().size(); ++k)
+            members.push_back(
+                {words_.par()[k], p_.parameters[k].value, about(p_.parameters[k].name, p_.parameters[k].unit)});
+        file_.set("parameter_members", members_of(members));
+        file_.set("has_constants", !words_.constants().empty());
+        file_.set("has_no_par", members.empty() && words_.constants().empty());
+        Names names = words_.names();
+        file_.set("constants_member", names.fresh("prepared"));
+    }
+
+    void values(const char* key, std::initializer_list<Group> groups) {
+        Names names;
+        std::vector<Member> members;
+        for (const std::string& name : root_names(p_, groups)) members.push_back({names.fresh(name)});
+        file_.set(key, members_of(members));
+    }
+
+    mustache::data& file_;
+    const Program& p_;
+    const Vocabulary& words_;
+    const EmitOptions& options_;
+};
+
+}  // namespace
+
+std::string namespace_of(const Program& program) {
+    std::string name = Names().fresh(program.name);
+    if (is_function_of_c(name)) name += '_';
+    return name;
+}
+
+void describe_interface(mustache::data& file, const Program& program, const Vocabulary& words,
+                        const std::vector<FunctionTask>& functions, const EmitOptions& options) {
+    Interface interface(file, program, words, options);
+    interface.functions(functions);
+    interface.entries();
+    interface.structs();
+    file.set("space", namespace_of(program));
+}
+
+}  // namespace alembert
