@@ -275,8 +275,8 @@ TEST_CASE("emitted C++: float, long double and a type of one's own have the accu
         FUNCTION(acos)
         FUNCTION(atan)
         FUNCTION(sinh)
-        FUNCTION(cosh) FUNCTION(tanh) FUNCTION(exp) FUNCTION(log) FUNCTION(sqrt) FUNCTION(abs) inline Number
-            pow(Number a, Number b) {
+        FUNCTION(cosh)
+        FUNCTION(tanh) FUNCTION(exp) FUNCTION(log) FUNCTION(sqrt) FUNCTION(abs) inline Number pow(Number a, Number b) {
             return Number(std::pow(a.v, b.v));
         }
         inline Number atan2(Number a, Number b) {

@@ -9,11 +9,23 @@
 
 namespace alembert {
 
-inline constexpr std::array<std::string_view, 18> warning_kinds{
-    "unit_mismatch",   "unused",       "no_effect",         "no_length",
-    "initial_values",  "no_inertia",   "suspicious_number", "redundant",
-    "added_equations", "moving_place", "quotient_of_size",  "before_impulses",
-    "poles",           "gimbal_lock",  "not_a_number",      "unknown_unit",
-    "nearly_redundant", "left_out"};
+inline constexpr std::array<std::string_view, 18> warning_kinds{"unit_mismatch",
+                                                                "unused",
+                                                                "no_effect",
+                                                                "no_length",
+                                                                "initial_values",
+                                                                "no_inertia",
+                                                                "suspicious_number",
+                                                                "redundant",
+                                                                "added_equations",
+                                                                "moving_place",
+                                                                "quotient_of_size",
+                                                                "before_impulses",
+                                                                "poles",
+                                                                "gimbal_lock",
+                                                                "not_a_number",
+                                                                "unknown_unit",
+                                                                "nearly_redundant",
+                                                                "left_out"};
 
 }  // namespace alembert

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
@@ -99,6 +100,8 @@ void Marker::run() {
         statement_ = &written_.statements[s];
         if (statement_->sides.size() == 1) continue;  // a letter among the words of the next one
         words_after_ = words_behind(written_, *statement_);
+        if (statement_->displayed && begins_sentence(words_after_))
+            words_after_.clear();  // "For small r" of the next
         said_ = statement_->words + " " + words_after_;
         conditioned_behind_ = is_conditioned_behind(written_, *statement_);
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
@@ -146,6 +149,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     }
     relation_ = statement_->relations[k];
     speaks_of_small_ = speaks_of_small_ || relation_ == Relation::approximately;
+    is_judging_ = true;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
         if (line.status == LineStatus::mistake) is_of_authors_function(line, lhs, rhs);
@@ -161,6 +165,7 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = LineStatus::undecided;
         line.reason = say("it could not be evaluated");
     }
+    is_judging_ = false;
     try {
         weigh_condition(line, lhs, rhs);
     } catch (const NoMeaning&) {  // what has no value for itself is not excused
@@ -168,6 +173,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     const bool is_of_rest = line.status == LineStatus::not_about_scene && is_rest_assumed_;
     if (!is_of_rest && (holds_rates(lhs) || holds_rates(rhs))) is_rest_assumed_ = false;
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
+    if (!std::exchange(states_case_, false)) ++lines_of_case_;
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
         take_in(s, k);
@@ -179,6 +185,18 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
     collect_letters(rhs, all);
     return std::count_if(all.begin(), all.end(), [&](const auto& item) { return !letters_.name_of(item.first); }) >
            1;
+}
+
+/// "For M → 0 we have ω² = k/m": another value of a letter that has one, of the limit alone.
+bool Marker::is_of_limit(MarkedLine& line, const Math& lhs) const {
+    const Lone lone = lone_letter(lhs);
+    const auto name = lone.letter != nullptr ? letters_.name_of(lone.letter->letter) : std::nullopt;
+    if (!name || !known_.contains(*name) || letters_.is_of_scene(*name) || quantity_of(lone.letter->letter))
+        return false;
+    if (!is_limit(written_, *statement_)) return false;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("the words state a condition for it; lines are judged for all motions");
+    return true;
 }
 
 /// A letter of the author's for a place.
@@ -244,6 +262,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     const bool ends_chain = &lhs != &first && rhs.kind == Kind::number && rhs.text == "0";
     if (ends_chain && is_condition_on_potential(line, first, rhs)) return;  // dV/dθ = … = 0
     if (is_effective_potential(lhs, rhs)) letters_.leave_to_author(lone_letter(lhs).letter->letter);
+    if (is_of_limit(line, lhs)) return;
     if (is_of_state(line, lhs, rhs) || judge_value(line, lhs, rhs, relation)) return;
     if (judge_vector(line, lhs, rhs)) return;
     if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;

@@ -74,6 +74,7 @@ private:
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     bool is_of_motion(const Math& side) const;
     bool is_of_place(const Math& side) const;
+    bool is_of_limit(MarkedLine& line, const Math& lhs) const;
     bool is_unknown_force(const Letter& letter) const;
     bool is_effective_potential(const Math& lhs, const Math& rhs) const;
     bool holds_letters_that_move(const Math& math) const;
@@ -124,6 +125,9 @@ private:
     void know_state_letter(const Letter& letter, const GiNaC::symbol& value);
     bool is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool holds_function_of_state(const Math& math) const;
+    bool is_refuted_at_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& there,
+                             bool is_of_motion);
+    bool has_steady_rates_alone(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool is_near_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& about);
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     void define_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
@@ -173,6 +177,7 @@ private:
     void take_in_special_case(const Math& lhs, const Math& rhs);
     void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);
+    bool is_case_fresh() const;
     bool follows_with(const GiNaC::ex& residual, const GiNaC::exmap& values);
     void settle_in_special_case(MarkedLine& line);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
@@ -274,11 +279,16 @@ private:
         states_[6];                   ///< of rest and of steady motion: of all cases, and of the special one
     std::set<Letter> state_letters_;  ///< θ_0 of a coordinate θ
     GiNaC::exmap places_;             ///< their symbols, with the coordinates
-    std::set<Letter> rest_letters_;   ///< those of which a line has shown that they are values at rest
-    bool is_state_wrong_ = false;     ///< whether one of these lines was wrong
-    bool begins_case_ = true;         ///< whether a sentence or an item of a list has begun since the last of them
-    GiNaC::exmap case_;               ///< those of the last sentence or item of a list
-    GiNaC::exmap special_values_;     ///< of parameters, as the derivation states them
+    std::vector<GiNaC::ex> rest_relations_;  ///< what lines have shown to vanish at these states
+    bool is_of_case_ = false;                ///< whether what was found last at rest is of special values
+    std::set<Letter> rest_letters_;          ///< those of which a line has shown that they are values at rest
+    bool is_state_wrong_ = false;            ///< whether one of these lines was wrong
+    bool states_case_ = false;               ///< whether this line states one of them
+    bool is_judging_ = false;                ///< whether a line is being judged, and not its words heard
+    int lines_of_case_ = 0;                  ///< how many lines have been judged since the last of them
+    bool begins_case_ = true;      ///< whether a sentence or an item of a list has begun since the last of them
+    GiNaC::exmap case_;            ///< those of the last sentence or item of a list
+    GiNaC::exmap special_values_;  ///< of parameters, as the derivation states them
     std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
     bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
     std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such

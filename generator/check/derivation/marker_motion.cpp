@@ -154,6 +154,8 @@ void Marker::set_special_value(const ex& name, const ex& value) {
     for (auto& [other, known] : special_values_)
         known = known.subs(name == plain, GiNaC::subs_options::no_pattern);
     special_values_[name] = plain;
+    lines_of_case_ = 0;
+    states_case_ = statement_->sides.size() > 1 && is_judging_;
     if (begins_case_) case_.clear();
     begins_case_ = false;
     const ex own = value.subs(case_, GiNaC::subs_options::no_pattern);
@@ -200,11 +202,24 @@ bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
     return false;
 }
 
+/// Whether the values were stated for this line: in its sentence, or by the line just before it, with words that
+/// only go on between them. Numbers that were given, k = 40 N/m, hold for the page.
+bool Marker::is_case_fresh() const {
+    const bool has_data_alone = std::all_of(special_values_.begin(), special_values_.end(), [](const auto& item) {
+        return GiNaC::is_a<GiNaC::numeric>(item.second) && !item.second.is_zero();
+    });
+    constexpr std::size_t longest = 24;  // "and", "or, for the second,"
+    const bool goes_on = statement_->words.size() < longest && !ends_sentence(statement_->words) &&
+                         !begins_sentence(statement_->words);
+    return has_data_alone || lines_of_case_ == 0 || (lines_of_case_ < 3 && goes_on);
+}
+
 /// Right for these values; not judged where a sentence has ended since they were stated.
 void Marker::settle_in_special_case(MarkedLine& line) {
-    line.status = is_case_settled_ ? LineStatus::not_about_scene : LineStatus::right;
+    const bool is_over = is_case_settled_ || !is_case_fresh();
+    line.status = is_over ? LineStatus::not_about_scene : LineStatus::right;
     line.reason =
-        is_case_settled_
+        is_over
             ? say("it holds for values of parameters that stand above; whether they are still meant is not said")
             : say("for the values of parameters that the derivation states");
     notes_.back().claim = {};

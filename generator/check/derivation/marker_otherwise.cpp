@@ -150,7 +150,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         });
     };
     if (!is_aside() && !moves(sides.left) && !moves(sides.right)) return false;
-    if (speaks_of_special_case(statement_->words) || ends_at_place(statement_->words) ||
+    if (is_aside() || speaks_of_special_case(statement_->words) || ends_at_place(statement_->words) ||
         sets_value(statement_->words))
         under_condition_ = lines_of_condition;
     line.status = LineStatus::not_about_scene;

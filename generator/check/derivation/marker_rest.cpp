@@ -57,7 +57,8 @@ RestStates& Marker::states_of_rest(bool steady, const GiNaC::exmap& special) {
 /// says most; `reason` tells it.
 Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool may_be_steady,
                             std::string& reason) {
-    bool is_nowhere = false, is_elsewhere = false;
+    bool is_nowhere = false, is_elsewhere = false, is_trivial = false;
+    is_of_case_ = false;
     const GiNaC::exmap none;
     for (const bool steady : {false, true})
         for (const GiNaC::exmap* special : {&none, &std::as_const(special_values_), &std::as_const(case_)}) {
@@ -71,14 +72,19 @@ Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool m
             }
             is_nowhere = is_nowhere || found == Found::nowhere;
             is_elsewhere = is_elsewhere || found == Found::elsewhere;
+            is_trivial = is_trivial || found == Found::trivially;
             if (found != Found::everywhere && found != Found::on_branch) continue;
+            is_of_case_ = of_case;
             reason = of_case  ? say("of states of rest, for the values of parameters that the derivation states")
                      : steady ? say("of steady motions")
                      : found == Found::everywhere ? say("of states of rest")
                                                   : say("of one of the states of rest");
             return found;
         }
-    return is_elsewhere ? Found::elsewhere : is_nowhere ? Found::nowhere : Found::unknown;
+    return is_trivial     ? Found::trivially
+           : is_elsewhere ? Found::elsewhere
+           : is_nowhere   ? Found::nowhere
+                          : Found::unknown;
 }
 
 /// dV/dφ = 0 is what states of rest obey, whatever the words say.
@@ -87,7 +93,13 @@ bool Marker::is_condition_on_potential(MarkedLine& line, const Math& lhs, const 
                           letters_.name_of(lhs.args[0]->letter) == letters_.name_of(MechanicalQuantity::potential);
     const bool is_said = says_rest() || lhs.text == "d";
     if (!is_slope || !is_said || rhs.kind != Kind::number || rhs.text != "0") return false;
-    if (!is_at_rest(line, truth_.value(sides_of(lhs, rhs).left.text), {}, false)) return false;
+    const ex slope = truth_.value(sides_of(lhs, rhs).left.text);
+    std::string reason;
+    const Found found =
+        found_at_rest([&](RestStates& states) { return states.vanishes(slope, {}); }, false, reason);
+    if (found != Found::everywhere && found != Found::on_branch && found != Found::trivially) return false;
+    line.status = LineStatus::right;
+    line.reason = say("of states of rest");
     is_rest_assumed_ = true;
     return true;
 }
@@ -100,9 +112,13 @@ bool Marker::is_at_rest(MarkedLine& line, const ex& residual, const RestStates::
         found_at_rest([&](RestStates& states) { return states.vanishes(residual, about); }, may_be_steady, reason);
     if (found == Found::elsewhere)
         reason = say("it holds at some unstable states of rest; whether they are meant is not said");
+    else if (found == Found::trivially)
+        reason = say("all of its terms vanish at the states of rest that were found, which says nothing of them");
     else if (found != Found::everywhere && found != Found::on_branch)
         return false;
-    line.status = found == Found::elsewhere ? LineStatus::undecided : LineStatus::right;
+    const bool is_open =
+        found == Found::elsewhere || found == Found::trivially || (is_of_case_ && !is_case_fresh());
+    line.status = is_open ? LineStatus::undecided : LineStatus::right;
     line.reason = std::move(reason);
     notes_.back().claim = {};
     return true;
@@ -114,7 +130,8 @@ bool Marker::holds_at_some_rest(MarkedLine& line, const Sides& sides) {
     if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs)) return false;
     const bool names_place = names_coordinate(*sides.lhs) || names_coordinate(*sides.rhs);
     return is_at_rest(line, truth_.value(sides.left.text) - truth_.value(sides.right.text),
-                      {.names_place = names_place}, false);
+                      {.names_place = names_place, .of_number = is_number(*sides.lhs) || is_number(*sides.rhs)},
+                      false);
 }
 
 /// θ or cos θ alone: the line then states the place.
@@ -196,15 +213,20 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     const bool is_of_motion =
         m.z->depends(residual, m.q) || m.z->depends(residual, m.qddot) || holds_rates(lhs) || holds_rates(rhs);
     const RestStates::About about{.places = places_,
-                                  .names_place = names_coordinate(lhs) || names_coordinate(rhs)};
+                                  .names_place = names_coordinate(lhs) || names_coordinate(rhs),
+                                  .of_number = is_number(lhs) || is_number(rhs)};
     line.claim = sides.left.text + " = " + sides.right.text;
-    if (!m.z->depends(residual, m.qddot) && is_at_rest(line, residual, about, true)) {
+    const bool is_of_start = from_rest_ && !is_named && !about.names_place;  // θ_0 of the release
+    RestStates::About there = about;  // a line that names the place may name another one than those above
+    if (!about.names_place) there.relations = rest_relations_;
+    if (!is_of_start && has_steady_rates_alone(residual, lhs, rhs) && is_at_rest(line, residual, there, true)) {
+        if (line.status == LineStatus::right && about.names_place) rest_relations_ = {residual};
         if (line.status == LineStatus::right)
             for (const auto& [letter, dots] : all)
                 if (state_letters_.contains(letter)) rest_letters_.insert(letter);
         return true;
     }
-    if (is_of_motion && is_near_state(line, residual, about)) return true;
+    if (!is_of_start && is_of_motion && is_near_state(line, residual, there)) return true;
     if (keeps_its_start_at(residual, lhs, rhs)) {
         line.status = LineStatus::right;
         line.reason = say("of the motion that starts there from rest");
@@ -217,12 +239,19 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         return true;
     }
     const bool is_value = !statement_->displayed && (is_number(lhs) || is_number(rhs));  // "θ_0 = π/2"
-    const bool is_surely_meant = !is_value && is_said && !is_state_wrong_ && (!is_of_motion || speaks_of_small_);
+    return is_said && !is_value && is_refuted_at_state(line, residual, there, is_of_motion);
+}
+
+/// Whether a line that is surely about the state holds at none of them, or near none.
+bool Marker::is_refuted_at_state(MarkedLine& line, const ex& residual, const RestStates::About& there,
+                                 bool is_of_motion) {
+    const bool is_surely_meant =
+        system_.mechanism().inputs.empty() && !is_state_wrong_ && (!is_of_motion || speaks_of_small_);
     if (!is_surely_meant || line.status == LineStatus::not_about_scene) return false;
     std::string reason;
     const Found found = found_at_rest(
         [&](RestStates& states) {
-            return is_of_motion ? states.vanishes_near(residual, about) : states.vanishes(residual, about);
+            return is_of_motion ? states.vanishes_near(residual, there) : states.vanishes(residual, there);
         },
         true, reason);
     if (found != Found::nowhere) return false;
@@ -241,11 +270,23 @@ bool Marker::holds_function_of_state(const Math& math) const {
                                   [&](const MathPtr& arg) { return holds_function_of_state(*arg); });
 }
 
+/// Whether no rates stand in it but those of coordinates that move steadily.
+bool Marker::has_steady_rates_alone(const ex& residual, const Math& lhs, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    if (m.z->depends(residual, m.qddot)) return false;
+    if (!holds_rates(lhs) && !holds_rates(rhs)) return true;
+    const std::vector<std::size_t>& moving = states_of_rest(true, {}).moving();
+    for (std::size_t i = 0; i < m.q.size(); ++i)
+        if (std::find(moving.begin(), moving.end(), i) == moving.end() && m.z->depends(residual, {m.qdot[i]}))
+            return false;
+    return true;
+}
+
 /// Whether the line holds to first order near the states for which θ_0 stands.
 bool Marker::is_near_state(MarkedLine& line, const ex& residual, const RestStates::About& about) {
     std::string reason;
-    const Found found =
-        found_at_rest([&](RestStates& states) { return states.vanishes_near(residual, about); }, true, reason);
+    const Found found = found_at_rest([&](RestStates& states) { return states.vanishes_near(residual, about); },
+                                      !about.places.empty(), reason);
     if (found != Found::everywhere && found != Found::on_branch) return false;
     line.status = LineStatus::right_near;
     line.reason = std::move(reason);
@@ -384,6 +425,12 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
     } catch (const std::exception&) {
         return false;
     }
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    const RestStates::About about{.names_place = names_coordinate(*sides.lhs) || names_coordinate(*sides.rhs)};
+    std::string reason;
+    const Found found =
+        found_at_rest([&](RestStates& states) { return states.vanishes(residual, about); }, false, reason);
+    if (found == Found::trivially) return is_at_rest(line, residual, about, false);
     notes_.back().claim = claim;
     line.status = LineStatus::right;
     line.reason = say("of states of rest");

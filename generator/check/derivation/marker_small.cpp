@@ -55,7 +55,8 @@ bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Ma
     const ex value = truth_.value(square);
     std::string reason;
     const bool has_letter = system_.mechanism().z->depends(value, symbols_of_places());
-    const RestStates::About about{.places = has_letter ? places_ : GiNaC::exmap()};
+    const RestStates::About about{.places = has_letter ? places_ : GiNaC::exmap(),
+                                  .relations = has_letter ? rest_relations_ : std::vector<ex>()};
     const Found found = found_at_rest([&](RestStates& states) { return states.is_frequency(value, about); },
                                       has_letter || steady_lines_ > 0 || !places_.empty(), reason);
     const bool holds = found == Found::everywhere || found == Found::on_branch;

@@ -115,7 +115,10 @@ RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system)
     add_slopes(forces, m.q);
     near.insert(near.end(), rows.begin(), rows.end());
     const std::vector<ex> all_momenta = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
-    for (const std::size_t i : cyclic_) momenta.push_back(all_momenta[i]);
+    const std::vector<ex> all_forces = system.forces(true);
+    for (const std::size_t i : cyclic_)
+        if (is_identically_zero(all_forces[i], m)) momenta.push_back(all_momenta[i]);  // none drives or brakes it
+    kept_ = static_cast<Eigen::Index>(momenta.size());
     add_slopes(momenta, m.qdot);
     add_slopes(momenta, m.q);
     rest_ = lowered(rest, {});
@@ -248,7 +251,7 @@ std::optional<RestStates::Near> RestStates::near(const State<double>& at) const 
         next += rows * coordinates_;
         return part;
     };
-    const auto moving = static_cast<Eigen::Index>(cyclic_.size());
+    const Eigen::Index moving = kept_;
     Near result;
     result.mass = take(coordinates_);
     result.by_rates = take(coordinates_);
@@ -289,6 +292,16 @@ bool RestStates::oscillates(const Near& near, double square) {
            });
 }
 
+/// Whether what the derivation has found of the state holds there.
+bool RestStates::obeys(const State<double>& at, const Nodes& relations) const {
+    if (relations.roots.empty()) return true;
+    const std::vector<double> all = interpret_nodes(program_, at, relations.needed);
+    return std::all_of(relations.roots.begin(), relations.roots.end(), [&](int root) {
+        const double value = all[static_cast<std::size_t>(root)];
+        return std::abs(value) <= 1e-5 * std::max(size_of_terms(program_, root, all), small_term);
+    });
+}
+
 /// A place where a line says little: a letter for an angle stands for 0 or π, one for a length for 0.
 bool RestStates::is_trivial(const State<double>& at, const About& about) const {
     const Mechanism& m = system_.mechanism();
@@ -312,17 +325,20 @@ RestStates::Found RestStates::weighed(const About& about,
             elsewhere += set.elsewhere > 0 ? 1 : 0;
         }
     } all, telling;
+    const Nodes relations = lowered(about.relations, about.places);
     for (int k = 0; k < most_sets; ++k) {
         Count here, there;
         const std::vector<Place>& list = places(k);
         const bool own_is_unstable = std::none_of(
             list.begin(), list.end(), [&](const Place& place) { return place.is_own && is_stable(place.state); });
         for (const Place& place : list) {
+            if (!obeys(place.state, relations)) continue;
             const std::optional<Seen> seen = test(place.state);
             if (!seen) continue;
             const bool tells = seen->holds && (seen->is_told || about.names_place);
-            const bool is_meant = tells && (about.names_place || about.of_any || place.is_own || kind_.steady ||
-                                            (own_is_unstable && is_stable(place.state)));
+            const bool is_any = about.of_number || (about.of_any && !about.relations.empty());
+            const bool is_meant =
+                tells && (is_any || place.is_own || kind_.steady || (own_is_unstable && is_stable(place.state)));
             for (Count* count : {&here, &there}) {
                 if (count == &there && is_trivial(place.state, about)) continue;
                 ++count->sets;
@@ -339,8 +355,7 @@ RestStates::Found RestStates::weighed(const About& about,
     }
     const Count& count = telling.sets >= least_sets ? telling : all;
     if (count.sets < least_sets) return Found::unknown;
-    if (count.at_all && count.told == 0 && !about.places.empty())
-        return Found::unknown;  // 0 = 0 at trivial places
+    if (count.at_all && count.elsewhere == 0) return about.places.empty() ? Found::trivially : Found::unknown;
     if (count.at_all) return Found::everywhere;
     if (count.told >= 2) return Found::on_branch;
     if (count.elsewhere >= 2) return Found::elsewhere;

@@ -32,6 +32,7 @@ public:
 
     enum class Found {
         everywhere,  ///< at all that were found
+        trivially,   ///< at all, and because all of its terms are zero there
         on_branch,   ///< at those that are stable or next to the scene's start, or where the line names the place
         elsewhere,   ///< at others alone
         nowhere,
@@ -41,8 +42,10 @@ public:
     struct About {
         GiNaC::exmap places = {};  ///< letters for the values of coordinates at the state: θ_0 ↦ θ
         bool names_place = false;  ///< whether it states the value of a coordinate: all of its terms may be zero
+        bool of_number = false;    ///< whether that value is a number, θ = π: of whatever state
         GiNaC::exmap base = {};    ///< values of coordinates at the states that are meant; empty for all
-        bool of_any = false;       ///< whether it may be about any of the states
+        std::vector<GiNaC::ex> relations = {};  ///< what vanishes at the states that are meant
+        bool of_any = false;                    ///< whether it may be about any of the states
     };
     /// Whether the expression vanishes at the states.
     Found vanishes(const GiNaC::ex& residual, const About& about);
@@ -52,7 +55,7 @@ public:
     Found is_frequency(const GiNaC::ex& square, const About& about);
 
     const Kind& kind() const { return kind_; }
-    bool has_steady_motions() const { return !cyclic_.empty(); }
+    const std::vector<std::size_t>& moving() const { return cyclic_; }
 
 private:
     using Matrix = Eigen::MatrixXd;
@@ -86,6 +89,7 @@ private:
         bool holds = false, is_told = true;  ///< told: not because all of its terms are zero there
     };
     Found weighed(const About& about, const std::function<std::optional<Seen>(const State<double>&)>& test);
+    bool obeys(const State<double>& at, const Nodes& relations) const;
     bool is_trivial(const State<double>& at, const About& about) const;
 
     const DerivedSystem& system_;
@@ -93,7 +97,7 @@ private:
     GiNaC::exmap inputs_;  ///< with their derivatives, in t
     bool is_usable_ = false;
     std::vector<std::size_t> cyclic_;  ///< coordinates that move
-    Eigen::Index coordinates_ = 0, multipliers_ = 0, conditions_ = 0, holonomic_ = 0;
+    Eigen::Index coordinates_ = 0, multipliers_ = 0, conditions_ = 0, holonomic_ = 0, kept_ = 0;
     Program program_;
     Nodes rest_;  ///< the conditions and the constraints, then their slopes by the unknowns
     Nodes near_;

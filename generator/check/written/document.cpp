@@ -260,7 +260,8 @@ void DocumentReader::add(std::vector<WrittenStatement> found, bool is_displayed)
         while (!words_.empty() && words_.back() == ' ') words_.pop_back();
         if (!one.words.empty()) say_words(words_.empty() ? one.words : " " + one.words);
         if (one.sides.size() == 1 && one.relations.empty() && !is_displayed && one.reason.empty()) {
-            say_words(" " + std::string(slice(one.offset, one.offset + one.length)) + " ");  // a letter among words
+            say_words(" " + std::string(slice(one.offset, one.offset + one.length)) +
+                      " ");  // a letter among words
             one.words = words_;
             list_.push_back(std::move(one));
             continue;

@@ -451,6 +451,12 @@ std::size_t item_length(std::string_view line) {
                          rest[1] == ')' && rest[2] == ' ' &&
                          std::string_view("=+-*/^").find(trimmed(rest.substr(2))[0]) == std::string_view::npos;
     if (is_item) return begin + (is_open ? 1 : 0) + 3;
+    std::size_t digits = 0;  // "(5)  T = …"
+    while (digits < rest.size() && std::isdigit(static_cast<unsigned char>(rest[digits])) != 0) ++digits;
+    const bool is_number =
+        is_open && digits > 0 && rest.substr(digits).starts_with(") ") &&
+        std::string_view("=+-*/^").find(trimmed(rest.substr(digits + 1))[0]) == std::string_view::npos;
+    if (is_number) return begin + 1 + digits + 2;
     rest = line.substr(begin);  // "COR. 1.  If …"
     constexpr std::size_t longest_word = 8;
     std::size_t at = 0;

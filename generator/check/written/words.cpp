@@ -215,6 +215,10 @@ bool speaks_of_turning_axes(std::string_view words) {
         "du|axes mobiles|ejes móviles|ejes giratorios|sistema giratorio|转动参考系*|动坐标系*|动系*|随体*|连体*");
 }
 
+bool begins_sentence(std::string_view words) {
+    return !words.empty() && words.front() >= 'A' && words.front() <= 'Z';
+}
+
 bool ends_with_condition(std::string_view words) {
     std::string sentence = last_sentence(words);
     while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',' || sentence.back() == ':'))
@@ -542,6 +546,7 @@ bool sets_value(std::string_view words) {
          {"set", "setting", "let", "put", "putting", "with", "mit", "setze", "man setzt", "haciendo", "poniendo",
           "en posant", "avec", "con", "令", "设", "取", "and"})
         if (sentence == word || sentence.ends_with(" " + std::string(word)) ||
+            sentence.ends_with("(" + std::string(word)) ||
             (static_cast<unsigned char>(word[0]) >= 0x80 && sentence.ends_with(word)))
             return true;
     return false;

@@ -44,6 +44,9 @@ bool neglects_terms(std::string_view words);
 /// "In the rotating frame": components are along axes of the author's own.
 bool speaks_of_turning_axes(std::string_view words);
 
+/// Whether they begin with a capital letter, and so a sentence of their own.
+bool begins_sentence(std::string_view words);
+
 /// Whether the last word is "when", "if": the formula that follows is a condition.
 bool ends_with_condition(std::string_view words);
 
