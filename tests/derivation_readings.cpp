@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "check/derivation/marked.hpp"
+#include "check/written/sentences.hpp"
 #include "check/written/words.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
@@ -390,6 +391,8 @@ TEST_CASE("readings: what is assumed ends where it is said to end") {
                    "In the special case $\\Omega = 0$ the bead is free. In general $$\\ddot\\theta = 0$$") ==
           "-M");
     CHECK(statuses(turning, "Let $\\Omega = 0$ first.\n\n## The general case\n\n$$\\ddot\\theta = 0$$") == "-M");
+    CHECK(statuses(test::textbook_text("elastic_pendulum"),
+                   "Let $g = 0$. In general, in equilibrium, $$k(r - l_0)\\cos\\theta = 0$$") == "-M");
     CHECK(statuses(pendulum, "For $t\\to\\infty$ nothing is lost. The equation is $\\ddot\\theta = 0$") != "-");
     CHECK(statuses(test::textbook_text("central_force"), "In equilibrium $$r = 7$$") != "R");
 }

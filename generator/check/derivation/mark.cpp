@@ -76,6 +76,7 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     result.lines = std::move(marker.lines);
     result.letters = chosen.told;
     result.remarks = chosen.remarks;
+    for (std::string& remark : marker.remarks()) result.remarks.push_back(std::move(remark));
     for (const Letter& letter : settled.authors())
         result.remarks.push_back(say("{} is read as a letter of the author's own", identifier_of(letter)));
     const auto first = std::find_if(result.lines.begin(), result.lines.end(),

@@ -10,6 +10,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
 #include "check/derivation/parts.hpp"
+#include "check/written/sentences.hpp"
 #include "check/written/surroundings.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
@@ -105,7 +106,7 @@ void Marker::run() {
         said_ = statement_->words + " " + words_after_;
         conditioned_behind_ = is_conditioned_behind(written_, *statement_);
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
-        if (speaks_of_general_case(statement_->words)) special_values_.clear();
+        if (speaks_of_general_case(statement_->words)) special_values_.clear(), case_.clear();
         hear_special_values(statement_->words);
         is_case_settled_ = is_case_settled_ || holds_sentence(statement_->words);
         begins_case_ =

@@ -26,6 +26,9 @@ namespace alembert {
 /// A number, perhaps with a unit, π or a fraction of such.
 bool is_number(const Math& side);
 
+/// A number that has been rounded, or one with a unit: 4.47 rad/s.
+bool is_rounded_value(const Math& side);
+
 /// What was found about a line while it was judged.
 struct LineNotes {
     LineClaim claim = {};  ///< empty where there is none
@@ -56,6 +59,8 @@ public:
 
     std::vector<MarkedLine> lines;
     const Letters& letters() const { return letters_; }
+    /// What was assumed about letters for values of coordinates, in words.
+    std::vector<std::string> remarks() const;
     /// How much of it makes sense: the measure by which letters are chosen.
     double score() const;
 
@@ -180,6 +185,9 @@ private:
     bool is_case_fresh() const;
     bool follows_with(const GiNaC::ex& residual, const GiNaC::exmap& values);
     void settle_in_special_case(MarkedLine& line);
+    std::string told_values(const GiNaC::exmap& values) const;
+    GiNaC::ex kept_of(const Math& lhs, const Math& rhs);
+    bool does_not_change(const GiNaC::ex& expression);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool is_wrong_energy_of_start(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
@@ -275,20 +283,20 @@ private:
     std::set<Letter> motion_letters_;   ///< in formulas of one motion: A and B of A cos ω t
     bool conditioned_behind_ = false;   ///< whether the formula is followed by "at y = −l"
     int under_condition_ = 0;           ///< how many lines the condition that the words state may govern
-    std::unique_ptr<RestStates>
-        states_[6];                   ///< of rest and of steady motion: of all cases, and of the special one
-    std::set<Letter> state_letters_;  ///< θ_0 of a coordinate θ
-    GiNaC::exmap places_;             ///< their symbols, with the coordinates
-    std::vector<GiNaC::ex> rest_relations_;  ///< what lines have shown to vanish at these states
-    bool is_of_case_ = false;                ///< whether what was found last at rest is of special values
-    std::set<Letter> rest_letters_;          ///< those of which a line has shown that they are values at rest
-    bool is_state_wrong_ = false;            ///< whether one of these lines was wrong
-    bool states_case_ = false;               ///< whether this line states one of them
-    bool is_judging_ = false;                ///< whether a line is being judged, and not its words heard
-    int lines_of_case_ = 0;                  ///< how many lines have been judged since the last of them
-    bool begins_case_ = true;      ///< whether a sentence or an item of a list has begun since the last of them
-    GiNaC::exmap case_;            ///< those of the last sentence or item of a list
-    GiNaC::exmap special_values_;  ///< of parameters, as the derivation states them
+    std::vector<std::unique_ptr<RestStates>> states_;  ///< of rest and of steady motion, in all cases and special
+    std::set<Letter> state_letters_;                   ///< θ_0 of a coordinate θ
+    GiNaC::exmap places_;                              ///< their symbols, with the coordinates
+    std::vector<GiNaC::ex> rest_relations_;            ///< what lines have shown to vanish at these states
+    bool is_of_case_ = false;        ///< whether what was found last at rest is of special values
+    std::set<Letter> rest_letters_;  ///< those of which a line has shown that they are values at rest
+    bool is_state_wrong_ = false;    ///< whether one of these lines was wrong
+    bool states_case_ = false;       ///< whether this line states one of them
+    bool is_judging_ = false;        ///< whether a line is being judged, and not its words heard
+    int lines_of_case_ = 0;          ///< how many lines have been judged since the last of them
+    bool begins_case_ = true;        ///< whether a sentence or an item of a list has begun since the last of them
+    GiNaC::exmap case_;              ///< those of the last sentence or item of a list
+    GiNaC::exmap special_values_;    ///< of parameters, as the derivation states them
+    GiNaC::exmap used_values_;       ///< those of them for which the last line followed
     std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
     bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
     std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such

@@ -166,36 +166,43 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     line.claim.clear();
 }
 
+/// left − right, of squares where a root stands: s' = √(2 a s).
+ex Marker::kept_of(const Math& lhs, const Math& rhs) {
+    const ex left = truth_.value(claim_text(lhs, as_written()).text),
+             right = truth_.value(claim_text(rhs, as_written()).text);
+    return holds_root(lhs) || holds_root(rhs) ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
+}
+
+/// Whether it keeps its value on all motions.
+bool Marker::does_not_change(const ex& expression) {
+    const ex rate = system_.mechanism().time_derivative({expression})[0];
+    return system_.rows().holds(system_.rows().row(rate)) == true;
+}
+
 /// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
 /// motions.
 bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     if (displacements_ != nullptr) return false;
     const Mechanism& m = system_.mechanism();
-    const ex left = truth_.value(claim_text(lhs, as_written()).text),
-             right = truth_.value(claim_text(rhs, as_written()).text);
-    const bool has_root = holds_root(lhs) || holds_root(rhs);  // s' = √(2 a s)
-    const ex residual = has_root ? GiNaC::pow(left, 2) - GiNaC::pow(right, 2) : left - right;
+    const ex residual = kept_of(lhs, rhs);
     const bool changes = m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot);
     if (!changes || m.z->depends(residual, m.qddot)) return false;
     MotionRows& rows = system_.rows();
     if (rows.holds(rows.row(residual)) == true) return false;  // it is wrong in another way
-    return rows.holds(rows.row(m.time_derivative({residual})[0])) == true;
+    return does_not_change(residual);
 }
 
 /// The same of a start at rest at θ_0, where it holds too: θ'² = 2 g (cos θ − cos θ_0)/l.
 bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     if (displacements_ != nullptr || m.z->depends(residual, m.qddot)) return false;
-    ex kept = residual;
-    if (holds_root(lhs) || holds_root(rhs))
-        kept = GiNaC::pow(truth_.value(claim_text(lhs, as_written()).text), 2) -
-               GiNaC::pow(truth_.value(claim_text(rhs, as_written()).text), 2);
+    const ex kept = kept_of(lhs, rhs);
     GiNaC::exmap start;
     for (const GiNaC::symbol& rate : m.qdot) start[rate] = 0;
     for (const auto& [letter, coordinate] : places_) start[coordinate] = letter;
     if (!is_identically_zero(m.z->name(substitute(*m.z, {kept}, start)[0]), m)) return false;
     if (is_identically_zero(m.z->name(kept), m)) return false;
-    return system_.rows().holds(system_.rows().row(m.time_derivative({kept})[0])) == true;
+    return does_not_change(kept);
 }
 
 /// θ'² = g (cos θ − cos θ_0)/l of a motion that the words start from rest: with one degree of freedom and a
@@ -206,8 +213,7 @@ bool Marker::is_wrong_energy_of_start(const ex& residual, const Math& lhs, const
     if (!from_rest_ || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
         return false;
     if (!holds_rates(lhs) && !holds_rates(rhs)) return false;
-    const ex energy = truth_.value(letters_.name_of(MechanicalQuantity::energy));
-    return system_.rows().holds(system_.rows().row(m.time_derivative({energy})[0])) == true;
+    return does_not_change(truth_.value(letters_.name_of(MechanicalQuantity::energy)));
 }
 
 /// The rates that are zero just after the scene's impulses.

@@ -13,6 +13,8 @@
 #include "check/derivation/bindings.hpp"
 #include "check/derivation/parts.hpp"
 #include "check/total_derivative.hpp"
+#include "check/written/sentences.hpp"
+#include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 #include "model/formalism/elements.hpp"
 
@@ -304,7 +306,7 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
     const bool is_one = std::any_of(momenta.begin(), momenta.end(), [&](const ex& momentum) {
         return rows.is_identity(rows.row(stated - momentum)) == true;
     });
-    const bool is_kept = rows.holds(rows.row(m.time_derivative({stated})[0])) == true;
+    const bool is_kept = does_not_change(stated);
     if (!is_one && !is_kept && speaks_of_conservation(said_)) {
         line.status = LineStatus::mistake;
         line.reason = say("it does not keep its value");

@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
 #include "base/language/say.hpp"
+#include "check/written/sentences.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
 
@@ -165,8 +169,13 @@ void Marker::set_special_value(const ex& name, const ex& value) {
 
 /// Whether the line follows from the equations of motion for the values that the derivation has stated.
 bool Marker::follows_in_special_case(const ex& residual) {
-    return follows_with(residual, special_values_) ||
-           (case_.size() < special_values_.size() && follows_with(residual, case_));
+    for (const GiNaC::exmap* values : {&std::as_const(special_values_), &std::as_const(case_)}) {
+        if (values == &case_ && case_.size() == special_values_.size()) continue;
+        if (!follows_with(residual, *values)) continue;
+        used_values_ = *values;
+        return true;
+    }
+    return false;
 }
 
 bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
@@ -214,6 +223,18 @@ bool Marker::is_case_fresh() const {
     return has_data_alone || lines_of_case_ == 0 || (lines_of_case_ < 3 && goes_on);
 }
 
+/// "c = 0, m1 = m2".
+std::string Marker::told_values(const GiNaC::exmap& values) const {
+    constexpr std::size_t most_terms = 20;
+    std::string told;
+    for (const auto& [name, value] : values) {
+        const auto sum = fourier(system_.mechanism().z->expand(value), *system_.mechanism().symbols, most_terms);
+        told += (told.empty() ? "" : ", ") + GiNaC::ex_to<GiNaC::symbol>(name).get_name() + " = " +
+                (sum ? text(readable(*sum)) : "…");
+    }
+    return told;
+}
+
 /// Right for these values; not judged where a sentence has ended since they were stated.
 void Marker::settle_in_special_case(MarkedLine& line) {
     const bool is_over = is_case_settled_ || !is_case_fresh();
@@ -221,7 +242,7 @@ void Marker::settle_in_special_case(MarkedLine& line) {
     line.reason =
         is_over
             ? say("it holds for values of parameters that stand above; whether they are still meant is not said")
-            : say("for the values of parameters that the derivation states");
+            : say("for the values of parameters that the derivation states: {}", told_values(used_values_));
     notes_.back().claim = {};
 }
 

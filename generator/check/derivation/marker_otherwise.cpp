@@ -7,6 +7,7 @@
 
 #include "base/language/say.hpp"
 #include "check/total_derivative.hpp"
+#include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
 
@@ -275,7 +276,7 @@ bool Marker::is_energy_of_part(MarkedLine& line, const Sides& sides) {
     MotionRows& rows = system_.rows();
     const ex stated = truth_.value(sides.right.text), whole = truth_.value(name);
     if (m.z->depends(stated, m.qddot) || !m.z->depends(stated, m.qdot)) return false;
-    if (rows.holds(rows.row(m.time_derivative({stated})[0])) != true) return false;
+    if (!does_not_change(stated)) return false;
     for (const GiNaC::symbol& rate : m.qdot) {  // a multiple of the whole has the same ratio of all slopes
         const ex own = m.z->pull_back({{stated, 1}}, {rate})[0], other = m.z->pull_back({{whole, 1}}, {rate})[0];
         if (rows.is_identity(rows.row(own)) == true && rows.is_identity(rows.row(other)) != true) {

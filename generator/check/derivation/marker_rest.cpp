@@ -3,7 +3,6 @@
 #include "check/derivation/marker.hpp"
 
 #include <algorithm>
-
 #include <functional>
 #include <utility>
 
@@ -41,16 +40,17 @@ bool Marker::is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimTex
 
 /// States of rest or of steady motion in numbers, for special values of parameters.
 RestStates& Marker::states_of_rest(bool steady, const GiNaC::exmap& special) {
-    const std::size_t kind = special.empty() ? 0 : &special == &case_ ? 2 : 1;
-    std::unique_ptr<RestStates>& states = states_[(steady ? 3 : 0) + kind];
-    const auto is_same = [](const GiNaC::exmap& a, const GiNaC::exmap& b) {
-        return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
+    const auto is_same = [&](const std::unique_ptr<RestStates>& known) {
+        const GiNaC::exmap& other = known->kind().special;
+        return known->kind().steady == steady && other.size() == special.size() &&
+               std::equal(other.begin(), other.end(), special.begin(), [](const auto& x, const auto& y) {
                    return x.first.is_equal(y.first) && x.second.is_equal(y.second);
                });
     };
-    if (!states || !is_same(states->kind().special, special))
-        states = std::make_unique<RestStates>(system_, RestStates::Kind{.special = special, .steady = steady});
-    return *states;
+    const auto known = std::find_if(states_.begin(), states_.end(), is_same);
+    if (known != states_.end()) return **known;
+    const RestStates::Kind kind{.special = special, .steady = steady};
+    return *states_.emplace_back(std::make_unique<RestStates>(system_, kind));
 }
 
 /// What is asked of all states of rest, of those of the special case, and then of steady motions. The answer that
@@ -75,10 +75,12 @@ Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool m
             is_trivial = is_trivial || found == Found::trivially;
             if (found != Found::everywhere && found != Found::on_branch) continue;
             is_of_case_ = of_case;
-            reason = of_case  ? say("of states of rest, for the values of parameters that the derivation states")
-                     : steady ? say("of steady motions")
-                     : found == Found::everywhere ? say("of states of rest")
-                                                  : say("of one of the states of rest");
+            reason = of_case  ? say("of states of rest found in numbers, for the values of parameters that the "
+                                     "derivation states: {}",
+                                    told_values(*special))
+                     : steady ? say("of steady motions found in numbers")
+                     : found == Found::everywhere ? say("of states of rest found in numbers")
+                                                  : say("of one of the states of rest found in numbers");
             return found;
         }
     return is_trivial     ? Found::trivially
@@ -99,7 +101,7 @@ bool Marker::is_condition_on_potential(MarkedLine& line, const Math& lhs, const 
         found_at_rest([&](RestStates& states) { return states.vanishes(slope, {}); }, false, reason);
     if (found != Found::everywhere && found != Found::on_branch && found != Found::trivially) return false;
     line.status = LineStatus::right;
-    line.reason = say("of states of rest");
+    line.reason = found == Found::trivially ? say("of states of rest found in numbers") : std::move(reason);
     is_rest_assumed_ = true;
     return true;
 }
@@ -168,6 +170,15 @@ void Marker::know_state_letter(const Letter& letter, const GiNaC::symbol& value)
     state_letters_.insert(letter);
 }
 
+std::vector<std::string> Marker::remarks() const {
+    std::vector<std::string> result;
+    for (const auto& [letter, coordinate] : places_)
+        result.push_back(say("{} is read as the value of {} at a state of rest, in a steady motion or at a start",
+                             GiNaC::ex_to<GiNaC::symbol>(letter).get_name(),
+                             GiNaC::ex_to<GiNaC::symbol>(coordinate).get_name()));
+    return result;
+}
+
 /// A line with θ_0, the value of θ at one state: right of states of rest, near them, or of the motion that starts
 /// there. Returns whether that is decided.
 bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs) {
@@ -189,11 +200,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         return false;
     }
     const Lone lone = lone_letter(lhs);
-    const auto is_rounded = [](const Math& side) {
-        return side.kind == Kind::quantity ||
-               (side.kind == Kind::number && side.text.find('.') != std::string::npos);
-    };
-    if (is_rounded(lhs) || is_rounded(rhs)) return false;
+    if (is_rounded_value(lhs) || is_rounded_value(rhs)) return false;
     if (lone.letter != nullptr && lone.letter->letter.base == "omega" &&
         !state_letters_.contains(lone.letter->letter) &&
         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
@@ -257,7 +264,7 @@ bool Marker::is_refuted_at_state(MarkedLine& line, const ex& residual, const Res
     if (found != Found::nowhere) return false;
     line.status = LineStatus::mistake;
     line.reason = is_of_motion ? say("it does not hold to first order near any state of rest that was found")
-                               : say("it holds at none of the states of rest");
+                               : say("it holds at none of the states of rest that were found");
     is_state_wrong_ = true;
     return true;
 }

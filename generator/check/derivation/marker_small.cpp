@@ -72,8 +72,8 @@ bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Ma
     line.reason =
         is_named
             ? say("it is a frequency about {}; whether of the state or mode that the words name is not judged",
-                  say("a state of rest"))
-        : holds             ? say("a frequency of small vibrations about {}", say("a state of rest"))
+                  say("a state of rest found in numbers"))
+        : holds ? say("a frequency of small vibrations about {}", say("a state of rest found in numbers"))
         : line.follows_from ? say("it follows from line {}", lines[*line.follows_from].line)
                             : say("it is no frequency of small vibrations");
     line.claim =
@@ -98,7 +98,7 @@ bool Marker::is_frequency_again(MarkedLine& line, const Math& letter, const Math
     if (found != Found::everywhere && found != Found::on_branch) return false;
     define(line, letter, rhs, power);
     line.status = LineStatus::right_near;
-    line.reason = say("a frequency of small vibrations about {}", say("a state of rest"));
+    line.reason = say("a frequency of small vibrations about {}", say("a state of rest found in numbers"));
     notes_.back().claim = {};
     return true;
 }

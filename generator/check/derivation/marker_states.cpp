@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "base/language/say.hpp"
+#include "check/written/sentences.hpp"
 #include "check/written/surroundings.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
@@ -254,8 +255,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
 bool Marker::is_kept(const Sides& sides) {
     const Mechanism& m = system_.mechanism();
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-    return !m.z->depends(residual, m.qddot) &&
-           system_.rows().holds(system_.rows().row(m.time_derivative({residual})[0])) == true;
+    return !m.z->depends(residual, m.qddot) && does_not_change(residual);
 }
 
 /// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.

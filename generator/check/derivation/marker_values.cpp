@@ -23,6 +23,7 @@ struct Printed {
     const Math* number = nullptr;
     std::string unit = {};
     bool is_negative = false;
+    bool is_unit_of_letters = false;  ///< whether the unit stands there as letters
     bool is_rounded() const { return number != nullptr && number->text.find_first_of(".eE") != std::string::npos; }
 };
 
@@ -53,7 +54,8 @@ Printed printed(const Math& side, const Letters& letters) {
     if (side.kind == Kind::quantity && side.args[0]->kind == Kind::number)
         return {.number = side.args[0].get(), .unit = side.text};
     if (side.kind != Kind::product || side.args[0]->kind != Kind::number) return {};
-    Printed result{.number = side.args[0].get(), .unit = unit_of_letters(side, letters)};
+    Printed result{
+        .number = side.args[0].get(), .unit = unit_of_letters(side, letters), .is_unit_of_letters = true};
     return result.is_rounded() && !result.unit.empty() ? result : Printed{};
 }
 
@@ -67,6 +69,10 @@ double last_digit(const std::string& text) {
 }
 
 }  // namespace
+
+bool is_rounded_value(const Math& side) {
+    return side.kind == Kind::quantity || (side.kind == Kind::number && Printed{.number = &side}.is_rounded());
+}
 
 bool Marker::holds_letters_that_move(const Math& math) const {
     std::map<Letter, int> all;
@@ -117,7 +123,9 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
     if (!stated && fits(own) != true) return true;
     line.status = stated == false ? LineStatus::mistake : LineStatus::right;
     line.reason = stated == false ? say("it is another number with the values that stand above")
-                                  : say("to the digits that are written");
+                  : value.is_unit_of_letters
+                      ? say("to the digits that are written; {} is read as a unit", value.unit)
+                      : say("to the digits that are written");
     notes_.back().is_sure = line.status == LineStatus::mistake;
     if (line.status == LineStatus::mistake)
         line.claim = claim_text(other, as_written()).text + fmt::format(" = {:.6g}", written);

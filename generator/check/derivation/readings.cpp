@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/claim_text.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 
 namespace alembert {

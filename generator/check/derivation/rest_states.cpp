@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <random>
 
 #include "analysis/state/assemble.hpp"
 #include "model/energy.hpp"
@@ -21,15 +22,23 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int most_sets = 24, least_sets = 3, starts = 10, most_steps = 40;
-constexpr double longest = 20000, settled = 1e-11, alike = 1e-7, small_term = 1e-3;
+constexpr int most_sets = 24,  // of values of the parameters; a line is decided after 3 to 6 in most cases
+    least_sets = 3,            // with fewer nothing is said
+    starts = 10, most_steps = 40;
+constexpr double longest = 20000;    // nodes of an expression, as in first_order.cpp
+constexpr double settled = 1e-11;    // of Newton's method, in doubles
+constexpr double alike = 1e-7;       // of values at such a state: √settled, as roots of even order are that near
+constexpr double obeyed = 1e-5;      // of relations that lines have shown, with numbers of few digits in them
+constexpr double small_term = 1e-3;  // what is smaller beside parameters and coordinates near 1 says nothing
+constexpr double no_pivot = 1e-10;   // relative to the largest one
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// In [0, 1), the same in each run.
 double fraction(int set, std::size_t k) {
-    const double x = std::sin(12.9898 * (set + 1) + 78.233 * (static_cast<double>(k) + 1)) * 43758.5453;
-    return x - std::floor(x);
+    std::mt19937 random(static_cast<unsigned>(set) * 7919U + static_cast<unsigned>(k));
+    random.discard(8);  // the first values of near seeds are alike
+    return static_cast<double>(random()) / 4294967296.0;
 }
 
 bool are_finite(const std::vector<double>& list) {
@@ -134,11 +143,11 @@ RestStates::Nodes RestStates::lowered(const std::vector<ex>& list, const GiNaC::
         there[m.qddot[i]] = 0;
         if (std::find(cyclic_.begin(), cyclic_.end(), i) == cyclic_.end()) there[m.qdot[i]] = 0;
     }
+    std::vector<ex> all = list;
+    for (const GiNaC::exmap& values : {kind_.special, inputs_, there, kind_.special})
+        all = substitute(*m.z, all, values);  // the special ones again: inputs bring parameters
     Nodes nodes;
-    nodes.roots = system_.lower(
-        program_,
-        substitute(*m.z, substitute(*m.z, substitute(*m.z, substitute(*m.z, list, kind_.special), inputs_), there),
-                   kind_.special));
+    nodes.roots = system_.lower(program_, all);
     nodes.needed = program_.needed(nodes.roots);
     return nodes;
 }
@@ -175,7 +184,7 @@ std::optional<State<double>> RestStates::reached(State<double> from) const {
         const Eigen::Map<const Eigen::VectorXd> left(here.data(), conditions_);
         const Eigen::Map<const RowMajor> slopes(here.data() + conditions_, conditions_, columns);
         Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-        solver.setThreshold(1e-10);
+        solver.setThreshold(no_pivot);
         solver.compute(slopes);
         const Eigen::VectorXd change = solver.solve(left);
         double size = 1;
@@ -251,14 +260,13 @@ std::optional<RestStates::Near> RestStates::near(const State<double>& at) const 
         next += rows * coordinates_;
         return part;
     };
-    const Eigen::Index moving = kept_;
     Near result;
     result.mass = take(coordinates_);
     result.by_rates = take(coordinates_);
     result.by_places = take(coordinates_);
     result.rows = take(multipliers_);
-    result.momenta_by_rates = take(moving);
-    result.momenta_by_places = take(moving);
+    result.momenta_by_rates = take(kept_);
+    result.momenta_by_places = take(kept_);
     return result;
 }
 
@@ -298,7 +306,7 @@ bool RestStates::obeys(const State<double>& at, const Nodes& relations) const {
     const std::vector<double> all = interpret_nodes(program_, at, relations.needed);
     return std::all_of(relations.roots.begin(), relations.roots.end(), [&](int root) {
         const double value = all[static_cast<std::size_t>(root)];
-        return std::abs(value) <= 1e-5 * std::max(size_of_terms(program_, root, all), small_term);
+        return std::abs(value) <= obeyed * std::max(size_of_terms(program_, root, all), small_term);
     });
 }
 
@@ -311,7 +319,7 @@ bool RestStates::is_trivial(const State<double>& at, const About& about) const {
     return false;
 }
 
-RestStates::Found RestStates::weighed(const About& about,
+RestStates::Found RestStates::weighed(const About& about, bool is_any,
                                       const std::function<std::optional<Seen>(const State<double>&)>& test) {
     if (!is_usable_) return Found::unknown;
     struct Count {
@@ -326,6 +334,7 @@ RestStates::Found RestStates::weighed(const About& about,
         }
     } all, telling;
     const Nodes relations = lowered(about.relations, about.places);
+    const bool needs_telling = !about.places.empty() && !about.names_place;
     for (int k = 0; k < most_sets; ++k) {
         Count here, there;
         const std::vector<Place>& list = places(k);
@@ -336,7 +345,6 @@ RestStates::Found RestStates::weighed(const About& about,
             const std::optional<Seen> seen = test(place.state);
             if (!seen) continue;
             const bool tells = seen->holds && (seen->is_told || about.names_place);
-            const bool is_any = about.of_number || (about.of_any && !about.relations.empty());
             const bool is_meant =
                 tells && (is_any || place.is_own || kind_.steady || (own_is_unstable && is_stable(place.state)));
             for (Count* count : {&here, &there}) {
@@ -349,12 +357,13 @@ RestStates::Found RestStates::weighed(const About& about,
         }
         all.add(here);
         telling.add(there);
+        if (telling.sets < least_sets && needs_telling) continue;
         const Count& count = telling.sets >= least_sets ? telling : all;
         if (count.sets >= least_sets && !count.at_all && count.told >= 2) break;
         if (count.sets >= 2 * least_sets && count.at_all) break;
     }
     const Count& count = telling.sets >= least_sets ? telling : all;
-    if (count.sets < least_sets) return Found::unknown;
+    if (count.sets < least_sets || (telling.sets < least_sets && needs_telling)) return Found::unknown;
     if (count.at_all && count.elsewhere == 0) return about.places.empty() ? Found::trivially : Found::unknown;
     if (count.at_all) return Found::everywhere;
     if (count.told >= 2) return Found::on_branch;
@@ -366,7 +375,7 @@ RestStates::Found RestStates::vanishes(const ex& residual, const About& about) {
     if (!is_usable_ || system_.mechanism().z->tree_size(residual) > longest) return Found::unknown;
     const Nodes nodes = lowered({residual}, about.places);
     const int root = nodes.roots[0];
-    return weighed(about, [&](const State<double>& at) -> std::optional<Seen> {
+    return weighed(about, about.of_number, [&](const State<double>& at) -> std::optional<Seen> {
         const std::vector<double> all = interpret_nodes(program_, at, nodes.needed);
         const double value = all[static_cast<std::size_t>(root)], size = size_of_terms(program_, root, all);
         if (!std::isfinite(value)) return std::nullopt;
@@ -380,7 +389,7 @@ RestStates::Found RestStates::vanishes(const ex& residual, const About& about) {
 RestStates::Found RestStates::vanishes_near(const ex& residual, const About& given) {
     About about = given;
     about.names_place = false;
-    about.of_any = !about.places.empty() || !about.base.empty();  // the author has said which he means
+    const bool is_said = !about.places.empty() || !about.base.empty();  // which state the author means
     const Mechanism& m = system_.mechanism();
     if (!is_usable_ || m.z->tree_size(residual) > longest) return Found::unknown;
     std::vector<GiNaC::symbol> by = m.qddot;
@@ -391,31 +400,32 @@ RestStates::Found RestStates::vanishes_near(const ex& residual, const About& giv
     for (const auto& [coordinate, value] : about.base) list.push_back(coordinate - value);
     const Nodes nodes = lowered(list, about.places);
     const Eigen::Index n = coordinates_, columns = 3 * n + multipliers_;
-    return weighed(about, [&](const State<double>& at) -> std::optional<Seen> {
-        const std::vector<double> here = values(nodes, at);
-        const std::optional<Near> there = near(at);
-        if (!there || !are_finite(here)) return std::nullopt;
-        if (std::any_of(here.begin() + columns + 1, here.end(),
-                        [](double away) { return std::abs(std::sin(away / 2)) > alike; }))
-            return std::nullopt;
-        const Eigen::Map<const Eigen::VectorXd> slopes(here.data(), columns);
-        const double size = slopes.norm();
-        if (std::abs(here[static_cast<std::size_t>(columns)]) > alike * std::max(size, 1.0)) return Seen{};
-        if (size < alike) return std::nullopt;  // energies have no part of first order
-        const Eigen::Index moving = there->momenta_by_rates.rows();
-        Matrix rows = Matrix::Zero(n + 3 * multipliers_ + moving, columns);
-        rows.topRows(n) << there->mass, -there->by_rates, -there->by_places, -there->rows.transpose();
-        rows.block(n, 0, multipliers_, n) = there->rows;
-        rows.block(n + multipliers_, n, multipliers_, n) = there->rows;
-        if (holonomic_ == multipliers_) rows.block(n + 2 * multipliers_, 2 * n, multipliers_, n) = there->rows;
-        rows.block(n + 3 * multipliers_, n, moving, n) = there->momenta_by_rates;
-        rows.block(n + 3 * multipliers_, 2 * n, moving, n) = there->momenta_by_places;
-        Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-        solver.setThreshold(1e-10);
-        solver.compute(rows.transpose());
-        const Eigen::VectorXd combined = rows.transpose() * solver.solve(slopes);
-        return Seen{.holds = (combined - slopes).norm() <= alike * size};
-    });
+    return weighed(
+        about, is_said && !about.relations.empty(), [&](const State<double>& at) -> std::optional<Seen> {
+            const std::vector<double> here = values(nodes, at);
+            const std::optional<Near> there = near(at);
+            if (!there || !are_finite(here)) return std::nullopt;
+            if (std::any_of(here.begin() + columns + 1, here.end(),
+                            [](double away) { return std::abs(std::sin(away / 2)) > alike; }))
+                return std::nullopt;
+            const Eigen::Map<const Eigen::VectorXd> slopes(here.data(), columns);
+            const double size = slopes.norm();
+            if (std::abs(here[static_cast<std::size_t>(columns)]) > alike * std::max(size, 1.0)) return Seen{};
+            if (size < alike) return std::nullopt;  // energies have no part of first order
+            const Eigen::Index moving = there->momenta_by_rates.rows();
+            Matrix rows = Matrix::Zero(n + 3 * multipliers_ + moving, columns);
+            rows.topRows(n) << there->mass, -there->by_rates, -there->by_places, -there->rows.transpose();
+            rows.block(n, 0, multipliers_, n) = there->rows;
+            rows.block(n + multipliers_, n, multipliers_, n) = there->rows;
+            if (holonomic_ == multipliers_) rows.block(n + 2 * multipliers_, 2 * n, multipliers_, n) = there->rows;
+            rows.block(n + 3 * multipliers_, n, moving, n) = there->momenta_by_rates;
+            rows.block(n + 3 * multipliers_, 2 * n, moving, n) = there->momenta_by_places;
+            Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
+            solver.setThreshold(no_pivot);
+            solver.compute(rows.transpose());
+            const Eigen::VectorXd combined = rows.transpose() * solver.solve(slopes);
+            return Seen{.holds = (combined - slopes).norm() <= alike * size};
+        });
 }
 
 /// Whether there is a solution near the state that varies as e^{st} with s² = −square, and not for any s.
@@ -440,8 +450,6 @@ bool RestStates::solves(const Near& near, double square, bool resisting) {
 RestStates::Found RestStates::is_frequency(const ex& square, const About& about) {
     if (!is_usable_ || system_.mechanism().z->tree_size(square) > longest) return Found::unknown;
     const Nodes nodes = lowered({square}, about.places);
-    About any = about;
-    any.of_any = true;
     const auto test = [&](const State<double>& at) -> std::optional<Seen> {
         const double value = values(nodes, at)[0];
         const std::optional<Near> there = near(at);
@@ -451,7 +459,7 @@ RestStates::Found RestStates::is_frequency(const ex& square, const About& about)
         return Seen{.holds =
                         solves(*there, value, true) || solves(*there, value, false) || oscillates(*there, value)};
     };
-    const Found found = weighed(any, test);
+    const Found found = weighed(about, !about.relations.empty(), test);
     if (found != Found::unknown || !about.places.empty() || !is_linear()) return found;
     int holding = 0;  // two rotors that a torque drives have no rest, and yet a frequency
     for (int k = 0; k < least_sets; ++k) {

@@ -9,10 +9,12 @@
 ///     states.is_frequency(square, {})                         // of small vibrations about one of them
 ///     states.vanishes_near(residual, {.places = {{theta_0, theta}}})
 ///
-/// They are found by Newton's method, in least squares, from several starts. This says what a line may mean, and
-/// is no proof.
+/// They are found by Newton's method, in least squares, from several starts, for values of the parameters that are
+/// drawn. This says what a line may mean, and is no proof. The verb `equilibrium` searches more thoroughly
+/// (stability/equilibrium/search.hpp), for one set of values, in a room above this one.
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -45,7 +47,6 @@ public:
         bool of_number = false;    ///< whether that value is a number, θ = π: of whatever state
         GiNaC::exmap base = {};    ///< values of coordinates at the states that are meant; empty for all
         std::vector<GiNaC::ex> relations = {};  ///< what vanishes at the states that are meant
-        bool of_any = false;                    ///< whether it may be about any of the states
     };
     /// Whether the expression vanishes at the states.
     Found vanishes(const GiNaC::ex& residual, const About& about);
@@ -66,8 +67,8 @@ private:
         State<double> state;
         bool is_own = false;  ///< whether it is the nearest to the scene's start
     };
-    /// Of the equations near a state: inertia, forces by rates, the resisting ones by rates, forces by
-    /// coordinates, constraints, momenta by rates and by coordinates.
+    /// Of the equations near a state: inertia, forces by rates and by coordinates, constraints, momenta by rates
+    /// and by coordinates.
     struct Near {
         Matrix mass, by_rates, by_places, rows, momenta_by_rates, momenta_by_places;
     };
@@ -88,7 +89,10 @@ private:
     struct Seen {
         bool holds = false, is_told = true;  ///< told: not because all of its terms are zero there
     };
-    Found weighed(const About& about, const std::function<std::optional<Seen>(const State<double>&)>& test);
+    /// `is_any`: the line may be about any state that has its relations, and not only about the scene's own or a
+    /// stable one.
+    Found weighed(const About& about, bool is_any,
+                  const std::function<std::optional<Seen>(const State<double>&)>& test);
     bool obeys(const State<double>& at, const Nodes& relations) const;
     bool is_trivial(const State<double>& at, const About& about) const;
 

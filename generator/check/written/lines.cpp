@@ -8,7 +8,7 @@
 #include "check/written/document.hpp"
 #include "check/written/parser.hpp"
 #include "check/written/statements.hpp"
-#include "check/written/words.hpp"
+#include "check/written/word_kinds.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

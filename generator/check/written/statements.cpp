@@ -8,6 +8,7 @@
 #include "check/written/parser.hpp"
 #include "check/written/rows.hpp"
 #include "check/written/tex_groups.hpp"
+#include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 
 namespace alembert {

@@ -4,38 +4,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/language/greek.hpp"
-#include "check/written/commands.hpp"
+#include "check/written/sentences.hpp"
 
 namespace alembert {
-
-namespace {
-
-std::string in_lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
-    return lower;
-}
-
-/// Whether one of `phrases`, separated by |, stands in the text as whole words (a phrase that ends with * may go
-/// on).
-bool has_phrase(const std::string& text, std::string_view phrases) {
-    const auto is_letter_at = [&](std::size_t k) { return k < text.size() && text[k] >= 'a' && text[k] <= 'z'; };
-    while (!phrases.empty()) {
-        const std::size_t end = std::min(phrases.find('|'), phrases.size());
-        std::string_view phrase = phrases.substr(0, end);
-        phrases.remove_prefix(std::min(end + 1, phrases.size()));
-        const bool may_go_on = phrase.ends_with('*');
-        if (may_go_on) phrase.remove_suffix(1);
-        for (std::size_t at = text.find(phrase); at != std::string::npos; at = text.find(phrase, at + 1))
-            if ((at == 0 || !is_letter_at(at - 1)) && (may_go_on || !is_letter_at(at + phrase.size())))
-                return true;
-    }
-    return false;
-}
-
-}  // namespace
 
 bool begins_condition(std::string_view words) {
     const std::string lower = in_lower_case(words);
@@ -53,42 +24,6 @@ bool speaks_of_consequence(std::string_view words) {
         "therefore|hence|so|thus|consequently|it follows|implies|gives|yields|we get|we obtain|"
         "we find|results in|leads to|then|因此*|所以*|故*|得*|于是*|从而*|即*|also|folglich|daher|somit");
 }
-
-namespace {
-
-/// Where the sentence that begins at `begin` ends: behind its full stop, or at the end of the words. "i.e." and
-/// "d.h." have none.
-std::size_t end_of_first_sentence(std::string_view words, std::size_t begin) {
-    for (std::size_t at = begin; at < words.size(); ++at) {
-        const std::string_view rest = words.substr(at), before = words.substr(0, at + 1);
-        const bool is_stop = rest.front() == '.' && (rest.size() == 1 || rest[1] == ' ' || rest[1] == '*') &&
-                             !before.ends_with("i.e.") && !before.ends_with("d.h.") && !before.ends_with("z.b.") &&
-                             !before.ends_with("z.B.");
-        if (is_stop || rest.starts_with("; ")) return at + 1;
-        for (const std::string_view wide : {"。", "；"})
-            if (rest.starts_with(wide)) return at + wide.size();
-    }
-    return words.size();
-}
-
-/// Where the last sentence that ends in the words does; 0 if none does.
-std::size_t end_of_sentences(std::string_view words) {
-    std::size_t end = 0;
-    while (end < words.size()) {
-        const std::size_t next = end_of_first_sentence(words, end);
-        const std::string_view last = words.substr(end, next - end);
-        if (next == words.size() && !last.ends_with('.') && !last.ends_with("。") && !last.ends_with("；")) break;
-        if (next == words.size() && (last.ends_with("i.e.") || last.ends_with("d.h."))) break;
-        end = next;
-    }
-    return end;
-}
-
-std::string last_sentence(std::string_view words) {
-    return in_lower_case(words.substr(end_of_sentences(words)));
-}
-
-}  // namespace
 
 bool speaks_of_exact_motion(std::string_view words) {
     return has_phrase(
@@ -129,22 +64,6 @@ bool speaks_of_first_order(std::string_view words) {
         begin = end;
     }
     return false;
-}
-
-bool ends_sentence(std::string_view words) {
-    return end_of_sentences(words) > 0;
-}
-
-bool holds_sentence(std::string_view words) {
-    const std::size_t first = end_of_first_sentence(words, 0);
-    const std::size_t last = end_of_sentences(words);
-    const bool is_rest_of_sentence = first < 4;  // the full stop behind the formula
-    return last > (is_rest_of_sentence ? first : 0) && last > 3;
-}
-
-bool joins_formulas(std::string_view words) {
-    constexpr std::size_t longest = 16;
-    return words.size() < longest && !ends_sentence(words);
 }
 
 bool states_condition(std::string_view words) {
@@ -211,24 +130,13 @@ bool speaks_of_turning_axes(std::string_view words) {
         in_lower_case(words),
         "rotating frame|rotating axes|turning axes|turning frame|moving axes|body axes|body-fixed|co-rotating|"
         "mitrotierend*|rotierenden system|drehenden achsen|körperfest*|repère tournant|référentiel "
-        "tournant|repère "
-        "du|axes mobiles|ejes móviles|ejes giratorios|sistema giratorio|转动参考系*|动坐标系*|动系*|随体*|连体*");
-}
-
-bool begins_sentence(std::string_view words) {
-    return !words.empty() && words.front() >= 'A' && words.front() <= 'Z';
+        "tournant|axes mobiles|ejes móviles|ejes giratorios|sistema "
+        "giratorio|转动参考系*|动坐标系*|动系*|随体*|连体*");
 }
 
 bool ends_with_condition(std::string_view words) {
-    std::string sentence = last_sentence(words);
-    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',' || sentence.back() == ':'))
-        sentence.pop_back();
-    static constexpr std::string_view last[] = {
-        "when",   "if", "provided", "provided that", "only if", "wenn",    "falls",
-        "sofern", "si", "cuando",   "lorsque",       "quand",   "only for"};
-    return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
-        return sentence == word || sentence.ends_with(" " + std::string(word));
-    });
+    return ends_with_word(words, {"when", "if", "provided", "provided that", "only if", "wenn", "falls", "sofern",
+                                  "si", "cuando", "lorsque", "quand", "only for"});
 }
 
 bool neglects_gravity(std::string_view words) {
@@ -285,18 +193,9 @@ bool names_part_of_forces(std::string_view words) {
 }
 
 bool begins_condition_of_state(std::string_view words) {
-    const std::string sentence = last_sentence(words);
-    if (has_phrase(sentence, "if|when|whenever|suppose|falls|wenn|si|cuando|lorsque|quand|若*|如果*|假设*"))
-        return true;
-    const std::size_t end = sentence.find_last_not_of(" (");
-    const std::string_view before = std::string_view(sentence).substr(0, end == std::string::npos ? 0 : end + 1);
-    static constexpr std::string_view last[] = {"at",   "for", "bei", "für",  "para",
-                                                "pour", "en",  "在",  "对于", "当"};
-    return std::any_of(std::begin(last), std::end(last), [&](std::string_view word) {
-        if (!before.ends_with(word)) return false;
-        const std::size_t begin = before.size() - word.size();
-        return begin == 0 || before[begin - 1] == ' ' || static_cast<unsigned char>(word[0]) >= 0x80;
-    });
+    return has_phrase(last_sentence(words),
+                      "if|when|whenever|suppose|falls|wenn|si|cuando|lorsque|quand|若*|如果*|假设*") ||
+           ends_with_word(words, {"at", "for", "bei", "für", "para", "pour", "en", "在", "对于", "当"});
 }
 
 bool speaks_of_special_case(std::string_view words) {
@@ -334,8 +233,7 @@ constexpr std::string_view special_motions =
 
 /// "circular:" alone before a formula.
 bool is_label(std::string_view words) {
-    std::string sentence = last_sentence(words);
-    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ':')) sentence.pop_back();
+    const std::string sentence = trimmed_sentence(words);
     return sentence == "circular" || sentence == "steady";
 }
 
@@ -424,25 +322,8 @@ bool explains(std::string_view words) {
     return has_phrase(in_lower_case(words), "where|with|and|wobei|mit|und|其中*|式中*");
 }
 
-bool is_word_for_letter(std::string_view word) {
-    if (word.empty() || word.size() > 40) return false;
-    if (is_word_for_constant(word)) return true;
-    static constexpr std::string_view no_names[] = {
-        "and",       "or",        "where",  "with",    "for",       "if",   "when",  "so",  "thus", "hence",
-        "therefore", "otherwise", "then",   "since",   "because",   "at",   "as",    "in",  "on",   "is",
-        "are",       "gives",     "yields", "implies", "similarly", "also", "while", "but", "by",   "from",
-        "let",       "using",     "we",     "that",    "which",     "und",  "oder",  "mit", "also", "wo"};
-    if (std::find(std::begin(no_names), std::end(no_names), in_lower_case(word)) != std::end(no_names))
-        return false;
-    return std::all_of(word.begin(), word.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-               c == '.' || c == '-';
-    });
-}
-
 const char* spoken_energy(std::string_view words) {
-    std::string sentence = last_sentence(words);
-    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ':')) sentence.pop_back();
+    const std::string sentence = trimmed_sentence(words);
     static constexpr std::string_view verbs[] = {
         "", " is", " becomes", " of the system is", " ist", " lautet", "为", "是", "：", "等于"};
     static constexpr std::pair<std::string_view, const char*> names[] = {{"kinetic energy", "T"},
@@ -479,12 +360,7 @@ bool speaks_of_motion_of(std::string_view words, const std::string& name) {
 }
 
 bool ends_with_near(std::string_view words) {
-    std::string sentence = last_sentence(words);
-    while (!sentence.empty() && sentence.back() == ' ') sentence.pop_back();
-    for (const std::string_view word :
-         {"near", "close to", "nearly", "in der nähe von", "nahe", "cerca de", "près de"})
-        if (sentence == word || sentence.ends_with(" " + std::string(word))) return true;
-    return false;
+    return ends_with_word(words, {"near", "close to", "nearly", "in der nähe von", "nahe", "cerca de", "près de"});
 }
 
 bool speaks_of_frequency(std::string_view words) {
@@ -530,26 +406,14 @@ bool speaks_of_general_case(std::string_view words) {
 }
 
 bool ends_at_place(std::string_view words) {
-    std::string sentence = last_sentence(words);
-    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',')) sentence.pop_back();
-    for (const std::string_view place :
-         {"lowest point", "highest point", "bottom", "top", "punto más bajo", "punto más alto", "tiefsten punkt",
-          "höchsten punkt", "最低点", "最高点", "point le plus bas"})
-        if (sentence.ends_with(place)) return true;
-    return false;
+    return ends_with_word(words,
+                          {"lowest point", "highest point", "bottom", "top", "punto más bajo", "punto más alto",
+                           "tiefsten punkt", "höchsten punkt", "最低点", "最高点", "point le plus bas"});
 }
 
 bool sets_value(std::string_view words) {
-    std::string sentence = last_sentence(words);
-    while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == ',')) sentence.pop_back();
-    for (const std::string_view word :
-         {"set", "setting", "let", "put", "putting", "with", "mit", "setze", "man setzt", "haciendo", "poniendo",
-          "en posant", "avec", "con", "令", "设", "取", "and"})
-        if (sentence == word || sentence.ends_with(" " + std::string(word)) ||
-            sentence.ends_with("(" + std::string(word)) ||
-            (static_cast<unsigned char>(word[0]) >= 0x80 && sentence.ends_with(word)))
-            return true;
-    return false;
+    return ends_with_word(words, {"set", "setting", "let", "put", "putting", "with", "mit", "setze", "man setzt",
+                                  "haciendo", "poniendo", "en posant", "avec", "con", "令", "设", "取", "and"});
 }
 
 bool speaks_of_constraint(std::string_view words) {
@@ -559,44 +423,13 @@ bool speaks_of_constraint(std::string_view words) {
         "无滑动*|zwangsbedingung*|bindung*|rollbedingung*");
 }
 
-bool is_word_for_constant(std::string_view word) {
-    static constexpr std::string_view names[] = {"const",     "const.",   "constant",  "konst", "konst.",
-                                                 "konstante", "konstant", "constante", "cte",   "cst",
-                                                 "常数",      "常量",     "恒量",      "常值"};
-    return std::find(std::begin(names), std::end(names), in_lower_case(word)) != std::end(names);
-}
-
 bool denies(std::string_view words) {
-    const std::string sentence = last_sentence(words);
-    const std::string_view before = std::string_view(sentence).substr(0, sentence.find_last_not_of(' ') + 1);
-    for (const std::string_view last : {" not", " nicht", "而不是", "并非"})
-        if (before.ends_with(last)) return true;
+    if (ends_with_word(words, {"not", "nicht", "而不是", "并非"})) return true;
     return has_phrase(
-        sentence,
+        last_sentence(words),
         "not true that|not correct that|not right that|wrong to write|wrong to say|it is wrong that|"
         "a common mistake*|a frequent mistake*|one might think that|wrongly write*|并不是*|误写*|错写*|"
         "错误地写*|es gilt nicht|nicht richtig|fälschlich*");
-}
-
-bool is_prose(std::string_view word) {
-    static constexpr std::string_view short_words[] = {
-        "a",     "an",   "the",  "is",    "are",  "be",   "of",    "to",    "in",   "on",    "at",    "by",
-        "for",   "from", "with", "and",   "or",   "so",   "we",    "it",    "as",   "if",    "let",   "get",
-        "has",   "have", "this", "that",  "then", "thus", "hence", "where", "when", "which", "gives", "yields",
-        "its",   "our",  "here", "us",    "now",  "was",  "were",  "can",   "will", "both",  "also",  "since",
-        "put",   "say",  "ok",   "OK",    "try",  "you",  "may",   "one",   "all",  "any",   "how",   "who",
-        "let's", "yes",  "und",  "oder",  "mit",  "aus",  "der",   "die",   "das",  "ist",   "wir",   "et",
-        "ou",    "est",  "les",  "des",   "une",  "con",  "por",   "que",   "los",  "las",   "del",   "not",
-        "no",    "but",  "use",  "using", "set",  "find", "take",  "per",   "via",  "into",  "I"};
-    if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
-    const std::string lower = in_lower_case(word);
-    if (std::find(std::begin(short_words), std::end(short_words), lower) != std::end(short_words) &&
-        lower != "i" && lower != "a")
-        return true;
-    if (word.size() < 4) return false;
-    if (!std::all_of(lower.begin(), lower.end(), [](char c) { return c >= 'a' && c <= 'z'; })) return false;
-    return greek_named(word) == nullptr && function_named(word).empty() && !lower.ends_with("dot") &&
-           command_named(word) == nullptr;
 }
 
 }  // namespace alembert

@@ -44,9 +44,6 @@ bool neglects_terms(std::string_view words);
 /// "In the rotating frame": components are along axes of the author's own.
 bool speaks_of_turning_axes(std::string_view words);
 
-/// Whether they begin with a capital letter, and so a sentence of their own.
-bool begins_sentence(std::string_view words);
-
 /// Whether the last word is "when", "if": the formula that follows is a condition.
 bool ends_with_condition(std::string_view words);
 
@@ -91,15 +88,6 @@ bool speaks_of_angular_momentum(std::string_view words);
 /// "where", "with", "and": a definition follows what is defined by it.
 bool explains(std::string_view words);
 
-/// Whether a sentence ends in the words.
-bool ends_sentence(std::string_view words);
-
-/// Whether a whole sentence stands in them, and not only the end of the last one.
-bool holds_sentence(std::string_view words);
-
-/// Whether they only join two formulas of one sentence: "or", "so".
-bool joins_formulas(std::string_view words);
-
 /// "The kinetic energy is": T, V or L, of which the formula that comes next is the value; null of other words.
 const char* spoken_energy(std::string_view words);
 
@@ -139,16 +127,7 @@ bool sets_value(std::string_view words);
 /// "constraint", "rolls without slipping".
 bool speaks_of_constraint(std::string_view words);
 
-/// A word in a formula that can be the name of something (KE, const), and no word such as "and".
-bool is_word_for_letter(std::string_view word);
-
-/// const, Konst., 常量: what keeps its value.
-bool is_word_for_constant(std::string_view word);
-
 /// "It is not true that": what follows is no claim.
 bool denies(std::string_view words);
-
-/// A word of English prose that is no name in a formula: "the", "energy".
-bool is_prose(std::string_view word);
 
 }  // namespace alembert
