@@ -206,4 +206,48 @@ TEST_CASE("stability: dampers along turning axes may push, and the energy is no 
     CHECK(verdict("c*(x^2 + y^2)") == "undecided");
 }
 
+TEST_CASE("equilibrium, stability: that a state found in numbers is one is proved, or told") {
+    const auto stability = [](const std::string& scene, const std::string& at) {
+        return json_of({"stability", scene, "--at", at});
+    };
+    // cos x = x once, at 0.7390851332151606.
+    const std::string scene = pushed("cos(x) - x", "", 0.7);
+    const Json once = json_of({"equilibrium", scene})["equilibria"];
+    REQUIRE(once.size() == 1);
+    CHECK(once[0]["state"] == "proved");
+    CHECK(std::abs(once[0]["coordinates"]["x"].get<double>() - 0.7390851332151606) < 1e-13);
+    const Json there = json_of({"stability", scene});
+    CHECK(there["verdict"] == "stable");
+    CHECK(there["state"] == "proved");
+    CHECK(there["assumed"].empty());
+    CHECK(stability(pushed("-k*x"), "x=0")["state"] == "exact");
+
+    // Not by a hair: no state of rest (the least force is 4e-30), and two that no double tells apart.
+    for (const char* force : {"-((x^2 - 2)^2 + 4e-30)", "-((x^2 - 2)^2 - 4e-30) - x'/2"}) {
+        CAPTURE(std::string(force));
+        const std::string near = pushed(force, "", 1.4);
+        const Json found = json_of({"equilibrium", near});
+        for (const Json& one : found["equilibria"]) {
+            CHECK(one["state"] != "proved");
+            CHECK(one["stable"] == "undecided");
+        }
+        const auto told = run({"stability", near, "--json"});
+        CHECK((told.exit == 2 || told.exit == 3));  // undecided, or no state of rest
+    }
+
+    // With constraints, and with signs that are decided in floating point.
+    const std::string linkage =
+        "[coordinates]\nx = { initial = 0.6 }\ny = { initial = -0.8 }\n[[particle]]\nname = \"P\"\nmass = 2\n"
+        "position = [\"x\", \"y\"]\n[[point]]\nname = \"H\"\noffset = [1, 0]\n[[spring]]\nbetween = [\"P\", "
+        "\"H\"]\nstiffness = 7\n"
+        "length = 0.3\n[[constraint]]\nname = \"rod\"\nholonomic = \"x^2 + y^2 = 1\"\n";
+    const Json held =
+        json_of({"equilibrium", temporary("held.toml", "gravity = [0, -9.81]\n" + linkage)})["equilibria"];
+    REQUIRE(held.size() >= 2);
+    for (const Json& one : held) CHECK(one["state"] == "proved");
+    const Json drag = stability(pushed("-k*x - x'*abs(x')"), "x=0");
+    CHECK(drag["verdict"] == "stable");
+    CHECK(drag["assumed"][0]["kind"] == "numbers");
+}
+
 }  // namespace commands_equilibria_meet

@@ -8,7 +8,7 @@
 #include "program/prime_polynomial.hpp"
 #include "program/reduce_rows.hpp"
 #include "program/univariate.hpp"
-#include "stability/matrix.hpp"
+#include "stability/interval/matrix.hpp"
 
 namespace fields {
 

@@ -21,7 +21,7 @@
 #include "commands/options.hpp"
 #include "program/lower/start.hpp"
 #include "scene/scene.hpp"
-#include "stability/point.hpp"
+#include "stability/interval/point.hpp"
 
 namespace CLI {
 class App;

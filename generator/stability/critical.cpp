@@ -286,7 +286,12 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots,
                 "and all others have negative real parts: disturbed motions tend to steady motions near this "
                 "one",
                 zeros, zeros == 1 ? "is" : "are",
-                proved ? "" : say(" (found by Newton's method in several directions)"))};
+                proved ? "" : say(" (found by Newton's method in several directions)")),
+            proved ? std::vector<StabilityAssumption>()
+                   : std::vector{StabilityAssumption{
+                         StabilityAssumption::Kind::family,
+                         say("the steady motions beside this one were found by Newton's method in several "
+                             "directions; that there are as many as these zeros is not proved")}}};
 }
 
 }  // namespace alembert

@@ -181,6 +181,7 @@ Local::Local(const LinearizedScene& of, const ExactOverrides& exact_at)
     find_point(exact_at);
     settle();
     find_momenta();
+    prove_state();
     reduce();
 }
 
@@ -217,12 +218,9 @@ State<Expansion> Local::state_at(const CertainPoint& at, const Monomials* monomi
         return monomials && variables[which] >= 0 ? Expansion::variable(*monomials, variables[which], value)
                                                   : Expansion(value);
     };
-    State<Expansion> state;
-    for (const Certain& p : at.parameters) state.parameters.emplace_back(p);
-    for (std::size_t i = 0; i < at.q.size(); ++i) state.q.push_back(entry(at.q[i], i));
-    for (std::size_t i = 0; i < at.u.size(); ++i) state.qdot.push_back(entry(at.u[i], at.q.size() + i));
-    for (const Certain& f : at.inputs) state.unknown.emplace_back(f);
-    state.t = Expansion(at.t);
+    State<Expansion> state = state_of(at);
+    for (std::size_t i = 0; i < at.q.size(); ++i) state.q[i] = entry(at.q[i], i);
+    for (std::size_t i = 0; i < at.u.size(); ++i) state.qdot[i] = entry(at.u[i], at.q.size() + i);
     return state;
 }
 
@@ -425,6 +423,15 @@ void Local::find_momenta() {
         if (is_identically_zero(slope[i] + of_dampers[i] + of_others[i], m))
             cyclic_momenta.push_back(static_cast<int>(j));
     }
+}
+
+/// Of a state whose residuals are zero in exact numbers there is nothing to prove.
+void Local::prove_state() {
+    const auto are_zero = [](const CertainVector& list) {
+        return std::all_of(list.begin(), list.end(), [](const Certain& x) { return x.is_zero(); });
+    };
+    if (are_zero(tangent.position) && are_zero(tangent.velocity) && are_zero(tangent.speed_rates)) return;
+    known = disc_around(residuals, split, essential, cyclic_momenta, point, found_to);
 }
 
 void Local::reduce() {

@@ -9,22 +9,16 @@
 ///
 /// The state is taken from the scene's own expressions (pi/2, acos(g/(R*Omega^2))) and from typed values. Values
 /// that the program had to find, and a state that is not exactly an equilibrium, are improved by Newton's method
-/// until the residual is 10⁻²⁸; their radius is then 10⁻²⁶.
+/// until the residual is 10⁻²⁸; their radius is then 10⁻²⁶, and it is tried to prove that the state lies within.
 
-#include "stability/expansion.hpp"
+#include "stability/interval/disc.hpp"
+#include "stability/interval/expansion.hpp"
+#include "stability/interval/matrix.hpp"
+#include "stability/interval/point.hpp"
 #include "stability/linear/about.hpp"
 #include "stability/linear/tangent.hpp"
-#include "stability/matrix.hpp"
-#include "stability/point.hpp"
 
 namespace alembert {
-
-/// Parameters and state in the order of the programs.
-struct CertainPoint {
-    CertainVector parameters, q, u;
-    Certain t;
-    CertainVector inputs;  ///< 3·input + order
-};
 
 /// M δw' + D δw + P δr = 0, δr' = H (δr, δw); the columns of `along` are the changes of (q, u) with (r, w).
 struct CertainTangent {
@@ -44,6 +38,7 @@ public:
     Residuals residuals;
     Split split;
     CertainPoint point;
+    StateKnown known = StateKnown::exactly;
     CertainTangent tangent;
     std::vector<std::string> states;  ///< essential coordinates, then speeds
     std::vector<int> essential;       ///< positions in split.q of coordinates on which something depends
@@ -73,6 +68,7 @@ private:
     void find_point(const ExactOverrides& exact_at);
     void settle();
     void find_momenta();
+    void prove_state();
     void reduce();
 };
 

@@ -10,8 +10,8 @@
 /// positive definiteness makes it a sum of squares. A semidefinite quadratic form is split off: with V_y = 0 on
 /// y(z), V is Σ ± y² + W(z) in other coordinates, W(z) = V(z, y(z)) (the splitting lemma), and W decides.
 
-#include "stability/expansion.hpp"
-#include "stability/matrix.hpp"
+#include "stability/interval/expansion.hpp"
+#include "stability/interval/matrix.hpp"
 
 namespace alembert {
 

@@ -19,7 +19,7 @@
 #include <complex>
 #include <vector>
 
-#include "stability/matrix.hpp"
+#include "stability/interval/matrix.hpp"
 
 namespace alembert {
 

@@ -93,12 +93,34 @@ const char* name_of(StabilityTheorem theorem) {
     return "";
 }
 
+const char* name_of(StabilityAssumption::Kind kind) {
+    switch (kind) {
+        case StabilityAssumption::Kind::state:
+            return "state";
+        case StabilityAssumption::Kind::numbers:
+            return "numbers";
+        case StabilityAssumption::Kind::family:
+            return "family";
+    }
+    return "";
+}
+
 namespace {
+
+using Assumed = StabilityAssumption::Kind;
 
 void take(Stability& result, const Decision& decision) {
     result.verdict = decision.verdict;
     result.theorem = decision.theorem;
     result.reason = decision.reason;
+    result.assumed = decision.assumed;
+}
+
+/// The verdict was found in floating point.
+void tell_numbers(Decision& decision) {
+    if (decision.verdict == StabilityVerdict::undecided) return;
+    decision.assumed.push_back(
+        {Assumed::numbers, say("the signs that decide were computed in floating point, without bounds")});
 }
 
 Decision by_integrals(const IntegralProof& proof, bool conserved) {
@@ -334,20 +356,71 @@ Decision decide_by_energy(const LinearizedScene& near) try {
 Decision decide_last(Stability& result) {
     Decision decision = decide_by_energy(*result.near);
     result.certain = decision.verdict == StabilityVerdict::undecided;
+    tell_numbers(decision);
     return result.certain ? undecided(result.eigenvalues) : decision;
 }
 
 /// Where the equations have no Taylor series at the state.
 void judge_in_numbers(Stability& result, const std::string& lyapunov) {
     result.eigenvalues = eigenvalues_of(blurred(result.A), false);
-    take(result, decide_first(result.eigenvalues));
-    if (result.verdict == StabilityVerdict::undecided)
-        if (const Decision decision = decide_by_energy(*result.near);
-            decision.verdict != StabilityVerdict::undecided)
-            take(result, decision);
-    if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
-    if (is_inexact_fold(*result.near, result.eigenvalues)) take(result, undecided_at_fold());
+    result.state = StateKnown::in_numbers;
+    Decision decision = decide_first(result.eigenvalues);
+    if (decision.verdict == StabilityVerdict::undecided) decision = decide_by_energy(*result.near);
+    if (decision.verdict == StabilityVerdict::undecided) decision = undecided(result.eigenvalues);
+    if (is_inexact_fold(*result.near, result.eigenvalues)) decision = undecided_at_fold();
+    tell_numbers(decision);
+    take(result, decision);
     if (!lyapunov.empty()) judge_function(result, lyapunov, nullptr);
+}
+
+/// What the series at the state decide, and what the verdict rests on.
+void judge_near(Stability& result, const Local& local, const StabilityOptions& options) {
+    result.states = local.states;
+    result.A.resize(local.A.rows, local.A.rows);
+    for (int i = 0; i < local.A.rows; ++i)
+        for (int j = 0; j < local.A.rows; ++j) result.A(i, j) = local.A(i, j).number();
+    result.eigenvalues = eigenvalues_of(local.A, has_even_spectrum(local));
+    result.certain = true;
+    if (local.A.rows == 0) {
+        take(result,
+             {StabilityVerdict::stable, StabilityTheorem::routh,
+              local.split.u.empty() ? say("the constraints give all rates, the same wherever the coordinates are")
+                                    : say("all coordinates are cyclic, and their momenta are constant")});
+        return;
+    }
+    const bool linear = is_linear(local.mechanism, local.equations);
+    Decision decision = linear ? decide_linear(result.eigenvalues, &local.A) : decide_first(result.eigenvalues);
+    PowerSign power;
+    try {
+        power = power_sign(local);
+    } catch (const NotAnalytic&) {
+    }
+    if (decision.verdict == StabilityVerdict::undecided)
+        decision = critical_case(local, power, result.eigenvalues);
+    else
+        name_forces(decision, local, power);
+    if (decision.verdict == StabilityVerdict::undecided) decision = decide_last(result);
+    if (decision.verdict == StabilityVerdict::asymptotically_stable && !local.cyclic_momenta.empty()) {
+        decision.verdict = StabilityVerdict::stable;
+        decision.reason +=
+            say("; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
+                "the steady motion that has these");
+    }
+    result.state = local.known;
+    const bool is_of_family = decision.theorem == StabilityTheorem::malkin;
+    if (is_inexact_fold(*result.near, result.eigenvalues) || (local.known == StateKnown::open && !is_of_family)) {
+        decision = undecided_at_fold();
+        result.certain = false;
+    }
+    if (decision.verdict != StabilityVerdict::undecided &&
+        (local.known == StateKnown::in_numbers || local.known == StateKnown::open))
+        decision.assumed.push_back(
+            {Assumed::state,
+             say("the state was found in numbers; that the mechanism can stay there, or move steadily, is not "
+                 "proved")});
+    take(result, decision);
+    if (result.certain) add_conditions(result, local, options.exact_at);
+    if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, &local);
 }
 
 }  // namespace
@@ -389,44 +462,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
         judge_in_numbers(result, options.lyapunov);
         return result;
     }
-    result.states = local->states;
-    result.A.resize(local->A.rows, local->A.rows);
-    for (int i = 0; i < local->A.rows; ++i)
-        for (int j = 0; j < local->A.rows; ++j) result.A(i, j) = local->A(i, j).number();
-    result.eigenvalues = eigenvalues_of(local->A, has_even_spectrum(*local));
-    result.certain = true;
-    if (local->A.rows == 0) {
-        take(result,
-             {StabilityVerdict::stable, StabilityTheorem::routh,
-              local->split.u.empty() ? say("the constraints give all rates, the same wherever the coordinates are")
-                                     : say("all coordinates are cyclic, and their momenta are constant")});
-        return result;
-    }
-    const bool linear = is_linear(local->mechanism, local->equations);
-    Decision decision = linear ? decide_linear(result.eigenvalues, &local->A) : decide_first(result.eigenvalues);
-    PowerSign power;
-    try {
-        power = power_sign(*local);
-    } catch (const NotAnalytic&) {
-    }
-    if (decision.verdict == StabilityVerdict::undecided)
-        decision = critical_case(*local, power, result.eigenvalues);
-    else
-        name_forces(decision, *local, power);
-    if (decision.verdict == StabilityVerdict::undecided) decision = decide_last(result);
-    if (decision.verdict == StabilityVerdict::asymptotically_stable && !local->cyclic_momenta.empty()) {
-        decision.verdict = StabilityVerdict::stable;
-        decision.reason +=
-            say("; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
-                "the steady motion that has these");
-    }
-    if (is_inexact_fold(near, result.eigenvalues)) {
-        decision = undecided_at_fold();
-        result.certain = false;
-    }
-    take(result, decision);
-    if (result.certain) add_conditions(result, *local, options.exact_at);
-    if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, &*local);
+    judge_near(result, *local, options);
     return result;
 }
 

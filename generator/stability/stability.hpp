@@ -65,6 +65,18 @@ struct LyapunovAnswer {
     std::string set = {};                   ///< where dV/dt is zero, if it is semidefinite
 };
 
+/// What a verdict rests on besides the equations of the scene: numbers about which nothing was proved.
+struct StabilityAssumption {
+    enum class Kind {
+        state,    ///< that there is an equilibrium or a steady motion at the state
+        numbers,  ///< eigenvalues or energies in floating point
+        family,   ///< steady motions beside this one
+    };
+    Kind kind;
+    std::string text;
+};
+const char* name_of(StabilityAssumption::Kind kind);
+
 struct StabilityOptions {
     std::string by = {};  ///< a formalism; empty: the program chooses
     Overrides at = {};
@@ -86,9 +98,11 @@ struct Stability {
     std::vector<std::pair<std::string, double>> periodic_start = {};  ///< coordinates and speeds, by name
     std::vector<RootOf> eigenvalues = {};
     bool certain = false;  ///< discs contain the eigenvalues; else they are those of floating-point numbers
-    std::vector<std::string> conditions = {};  ///< "expr > 0", together necessary and sufficient
-    std::string conditions_for = {};           ///< what for
-    std::vector<std::string> routh = {};       ///< of a polynomial: rows of Routh's array
+    std::optional<StateKnown> state = {};           ///< of an equilibrium or a steady motion
+    std::vector<StabilityAssumption> assumed = {};  ///< nothing of a verdict that is proved
+    std::vector<std::string> conditions = {};       ///< "expr > 0", together necessary and sufficient
+    std::string conditions_for = {};                ///< what for
+    std::vector<std::string> routh = {};            ///< of a polynomial: rows of Routh's array
     StabilityVerdict verdict = StabilityVerdict::undecided;
     StabilityTheorem theorem = StabilityTheorem::none;
     std::string reason = {};

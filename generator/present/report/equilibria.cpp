@@ -36,6 +36,7 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
     for (std::size_t k = 0; k < one.multipliers.size(); ++k)
         result["multipliers"][found.equations.lambda[k].get_name()] = one.multipliers[k] + 0.0;
     result["residual"] = one.residual;
+    result["state"] = name_of(one.known);
     result["isolated"] = !one.family;
     if (one.family) {
         result["family"] = {{"dimension", one.family->dimension}, {"free", free_of(m, *one.family)}};
@@ -46,6 +47,14 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
     for (const std::complex<double>& value : one.judgement.eigenvalues)
         result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
     return result;
+}
+
+/// "1, 3": of those that are known like that.
+std::string numbers_of(const Equilibria& found, StateKnown known) {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < found.list.size(); ++k)
+        if (found.list[k].known == known) list.push_back(k + 1);
+    return fmt::format("{}", fmt::join(list, ", "));
 }
 
 }  // namespace
@@ -117,6 +126,11 @@ std::string as_text(const Equilibria& found) {
     else if (!found.list.empty())
         say_on(page, "Found by Newton's method from {} starts; there may be more (--starts N searches longer).\n",
                found.search.starts);
+    const std::string proved = numbers_of(found, StateKnown::proved), open = numbers_of(found, StateKnown::open);
+    if (!proved.empty())
+        say_on(page, "It is proved that there is one, and one only, within {:g} of the numbers of {}.\n",
+               proved_radius, proved);
+    if (!open.empty()) say_on(page, "It is not proved that there is one at the numbers of {}.\n", open);
     return page;
 }
 

@@ -70,6 +70,30 @@ std::vector<double> multipliers_at(const SteadyProblem& problem, const Instant<l
     return {here.tangent.lambda.data(), here.tangent.lambda.data() + here.tangent.lambda.size()};
 }
 
+/// Whether it is proved that there is one within the accuracy of Newton's method, and no other.
+StateKnown known_at(const Derived& d, const SteadyProblem& problem, const Start& start,
+                    const Instant<long double>& at) {
+    constexpr double most_work = 3e6;
+    const Residuals& residuals = problem.residuals();
+    const Split split = problem.linearized_at(at, at.u).split;
+    const double unknowns = static_cast<double>(at.q.size() + 3 * static_cast<std::size_t>(residuals.kept));
+    if (unknowns * unknowns * residuals.program.size() > most_work) return StateKnown::in_numbers;
+    std::vector<int> essential;
+    for (std::size_t k = 0; k < split.q.size(); ++k)
+        if (problem.essential()[static_cast<std::size_t>(split.q[k])]) essential.push_back(static_cast<int>(k));
+    CertainPoint point{.parameters = exact_parameters(d.mechanism, start, {}),
+                       .t = Certain::about(static_cast<Quad>(start.t), 0)};
+    const auto certain = [](const std::vector<long double>& list) {
+        CertainVector result;
+        for (const long double x : list) result.push_back(x == 0 ? Certain(0) : Certain::about(x, 0));
+        return result;
+    };
+    point.q = certain(at.q);
+    point.u = certain(at.u);
+    point.inputs = certain(at.inputs);
+    return disc_around(residuals, split, essential, {}, point, proved_radius);
+}
+
 /// Is a gap negative at this state?
 bool penetrates(const Derived& d, const Start& start) {
     if (d.mechanism.unilateral.empty()) return false;
@@ -104,6 +128,16 @@ std::string searched(const Equilibria& found) {
         text += say("; at none of them did the constraints and forces have values");
     }
     return say("{}. This is no proof that there is none", text);
+}
+
+/// Nothing is said of the stability of what may not be there, or be there twice.
+StabilityHint undecided_as_open(StabilityHint judgement) {
+    if (judgement.stable == Stable::undecided) return judgement;
+    judgement.stable = Stable::undecided;
+    judgement.meets = true;
+    judgement.because =
+        say("that there is one equilibrium here, and not several or none, cannot be proved at these numbers");
+    return judgement;
 }
 
 /// Throws if a force is the same at every state and nothing balances it. In a dead zone it is so, but not beyond.
@@ -199,6 +233,7 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
             if (problem.essential()[i]) found->start.q[i] = static_cast<double>(at.q[i]);
         if (found->judgement.meets) found->family.reset();
         found->exact = std::move(root);
+        found->known = StateKnown::exactly;
     }
     std::erase_if(result.list, [&](const Equilibrium& one) {
         return !one.exact && one.judgement.meets &&
@@ -230,7 +265,9 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
                         .residual = static_cast<double>(root.residual),
                         .family = root.family,
                         .multipliers = multipliers_at(problem, root.at),
+                        .known = root.family ? StateKnown::in_numbers : known_at(result, problem, start, root.at),
                         .judgement = judge(problem, energy, root.at)};
+        if (one.known == StateKnown::open) one.judgement = undecided_as_open(std::move(one.judgement));
         if (penetrates(result, one.start) || turned_joint(result.mechanism, constraints, one.start.state()))
             return;
         // Coordinates that are cyclic, or moved by a constraint, from rest too.

@@ -14,6 +14,7 @@
 #include "stability/equilibrium/closed_form.hpp"
 #include "stability/equilibrium/judge.hpp"
 #include "stability/equilibrium/search.hpp"
+#include "stability/interval/disc.hpp"
 
 namespace alembert {
 
@@ -24,13 +25,17 @@ struct EquilibriumOptions {
     std::function<void(std::string_view, double)> progress = {};
 };
 
+/// Within which, relative to numbers above 1, a state is sought to be proved (disc.hpp).
+constexpr double proved_radius = 1e-13;
+
 /// One equilibrium or steady motion.
 struct Equilibrium {
     Start start;                      ///< coordinates, angles in (−π, π]; rates
     std::vector<std::string> moving;  ///< coordinates that move: cyclic ones, and those that constraints drive
     double residual = 0;  ///< the unbalanced forces, relative to the effect of a change of all unknowns by 1
-    std::optional<SteadyFamily> family = {};  ///< if it represents a continuum
-    std::vector<double> multipliers;          ///< of the constraints, in the order of Equations::lambda
+    std::optional<SteadyFamily> family = {};    ///< if it represents a continuum
+    std::vector<double> multipliers;            ///< of the constraints, in the order of Equations::lambda
+    StateKnown known = StateKnown::in_numbers;  ///< `exactly` where `exact` is given
     StabilityHint judgement;
     std::optional<ClosedRoot> exact = {};  ///< in the parameters
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "stability/point.hpp"
+#include "stability/interval/point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +38,17 @@ std::optional<Certain> typed(const Mechanism& m, const ExactOverrides& exact_at,
 }
 
 }  // namespace
+
+State<Expansion> state_of(const CertainPoint& at) {
+    State<Expansion> state;
+    for (const auto& [from, to] : {std::pair{&at.parameters, &state.parameters},
+                                   {&at.q, &state.q},
+                                   {&at.u, &state.qdot},
+                                   {&at.inputs, &state.unknown}})
+        for (const Certain& value : *from) to->emplace_back(value);
+    state.t = Expansion(at.t);
+    return state;
+}
 
 Certain exact_or(const Certain& exact, double in_use) {
     const double unit = near_enough * std::max(1.0, std::abs(in_use));

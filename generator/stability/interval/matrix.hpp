@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "stability/certain.hpp"
+#include "stability/interval/certain.hpp"
 
 namespace alembert {
 

@@ -5,8 +5,8 @@
 /// typed values are exact; other numbers are doubles.
 
 #include "program/lower/start.hpp"
-#include "stability/expansion.hpp"
-#include "stability/matrix.hpp"
+#include "stability/interval/expansion.hpp"
+#include "stability/interval/matrix.hpp"
 
 namespace alembert {
 
@@ -17,6 +17,16 @@ struct ExactStart {
     Certain t;
     CertainVector q, qdot, speeds;  ///< `speeds` are those of the scene with an initial value; others are 0
 };
+
+/// Parameters and state of the equations of motion, in the order of their programs.
+struct CertainPoint {
+    CertainVector parameters = {}, q = {}, u = {};
+    Certain t = {};
+    CertainVector inputs = {};  ///< 3·input + order
+};
+
+/// The values of a program there.
+State<Expansion> state_of(const CertainPoint& at);
 
 /// `start` is the same in doubles, assembled. If both differ (guesses that were moved), the double is used, with a
 /// radius.

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "program/interpret.hpp"
-#include "stability/certain.hpp"
+#include "stability/interval/certain.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Intervals by their middle and radius: Rump, Acta Numerica 19 (2010) 287, §6. A middle is rounded to 113 bits.
 // The possible error is added to the radius, which is deliberately a little too large.
-#include "stability/certain.hpp"
+#include "stability/interval/certain.hpp"
 
 #include <cln/integer.h>
 #include <cln/integer_io.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "stability/expansion.hpp"
+#include "stability/interval/expansion.hpp"
 
 #include <cln/integer.h>
 

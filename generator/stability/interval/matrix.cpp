@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "stability/matrix.hpp"
+#include "stability/interval/matrix.hpp"
 
 #include <algorithm>
 #include <array>
