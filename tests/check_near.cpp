@@ -89,4 +89,31 @@ TEST_CASE("check: a double pendulum of particles and rods has the small swings o
                     {"x1 = 0, x2 = 0", "y2 = -l1-l2", proved}});
 }
 
+// Mathieu's equation and a support that is shaken sideways; what stays of them where the shaking is small.
+TEST_CASE("check: an input near a state has its values in time, or is small, which is told") {
+    const auto shaken = [](const std::string& position) {
+        return down +
+               "[parameters]\nm = 1\nl = 1\na = 0.1\nw = 20\ng = 9.81\n[inputs]\ny = \"a*cos(w*t)\"\n"
+               "[coordinates]\ntheta = 0.1\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = " +
+               position + "\n";
+    };
+    const auto up = check_expected(shaken("[\"l*sin(theta)\", \"y - l*cos(theta)\"]"),
+                                   {{"theta = 0", "l*theta'' + (g + y'')*theta = 0", proved},
+                                    {"theta = 0", "l*theta'' + (g - a*w^2*cos(w*t))*theta = 0", proved},
+                                    {"theta = 0", "l*theta'' + (g + a*w^2*cos(w*t))*theta = 0", refuted},
+                                    {"theta = 0", "l*theta'' + g*theta = 0", proved},
+                                    {"theta = \"pi\"", "l*theta'' = (g + y'')*(theta - pi)", proved},
+                                    {"theta = \"pi\"", "l*theta'' = (g + 2*y'')*(theta - pi)", proved}});
+    for (const std::size_t k : {0, 1, 4}) CHECK(up[k].assumed.empty());
+    for (const std::size_t k : {3, 5}) {
+        REQUIRE(up[k].assumed.size() == 1);
+        CHECK(up[k].assumed[0].kind == Assumption::Kind::small);
+    }
+    check_expected(shaken("[\"y + l*sin(theta)\", \"-l*cos(theta)\"]"),
+                   {{"theta = 0", "l*theta'' + g*theta = -y''", proved},
+                    {"theta = 0", "l*theta'' + g*theta = a*w^2*cos(w*t)", proved},
+                    {"theta = 0", "l*theta'' + g*theta = -a*w^2*cos(w*t)", refuted},
+                    {"theta = 0", "l*theta'' + g*theta = 0", refuted}});
+}
+
 }  // namespace check_near

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/first_order.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
@@ -27,11 +30,11 @@ std::vector<std::pair<std::string, ex>> values_near(const Claim& claim, Claims& 
 
 class FirstOrder {
 public:
-    FirstOrder(const Claim& claim, Claims& read)
+    FirstOrder(const Claim& claim, Claims& read, NearPoint::Inputs inputs)
         : m_(read.mechanism()),
           e_(read.equations()),
-          residual_(m_.z->expand(read.read(claim).residual)),
-          near_(m_, e_, values_near(claim, read)),
+          near_(m_, e_, values_near(claim, read), inputs),
+          residual_(near_.read(m_.z->expand(read.read(claim).residual))),
           spoken_(letters_in(claim, read)) {}
 
     void settle(CheckedClaim& result) {
@@ -171,16 +174,35 @@ private:
 
     const Mechanism& m_;
     const Equations& e_;
-    const ex residual_;
     NearPoint near_;
+    const ex residual_;
     const SpokenLetters spoken_;
     std::vector<std::vector<ex>> reduced_;  ///< the linear equations of all of them, solved
 };
 
+/// Inputs that change with time.
+std::vector<std::string> moving_inputs(const Mechanism& m) {
+    std::vector<std::string> names;
+    for (const Mechanism::Input& input : m.inputs)
+        if (m.z->depends(input.value, {m.t})) names.push_back(input.derivative[0].get_name());
+    return names;
+}
+
 }  // namespace
 
 void check_first_order(const Claim& claim, Claims& read, CheckedClaim& result) {
-    FirstOrder(claim, read).settle(result);
+    FirstOrder(claim, read, NearPoint::Inputs::small).settle(result);
+    const std::vector<std::string> inputs = moving_inputs(read.mechanism());
+    if (inputs.empty()) return;
+    // Whatever the inputs are: cos(w*t)*theta, a support that shakes, is small then, and so is theta.
+    CheckedClaim in_time;
+    FirstOrder(claim, read, NearPoint::Inputs::in_time).settle(in_time);
+    const bool writes_time = read.mechanism().z->depends(read.read(claim).residual, {read.mechanism().t});
+    if (in_time.verdict == Verdict::proved || (in_time.verdict == Verdict::refuted && writes_time))
+        result = std::move(in_time);
+    else if (result.verdict == Verdict::proved)
+        result.assumed.push_back(
+            {Assumption::Kind::small, say("{} is small, as the deviations are", fmt::join(inputs, ", ")), false});
 }
 
 }  // namespace alembert

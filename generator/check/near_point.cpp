@@ -6,6 +6,7 @@
 
 #include "base/language/say.hpp"
 #include "check/zero.hpp"
+#include "model/inputs_in_time.hpp"
 #include "program/echelon.hpp"
 #include "program/lower/start.hpp"
 
@@ -37,6 +38,8 @@ struct NormalField {
     static void subtract(ex& from, const ex& factor, const ex& of) { from = (from - factor * of).normal(); }
 };
 
+constexpr std::size_t rows_of_constraint = 3;  // its accelerations, rates and position in NearPoint::bound
+
 std::string too_long() {
     return say("the equations of motion are too long for a first approximation in symbols");
 }
@@ -59,8 +62,11 @@ ex root_of_square(const ex& e, const ParameterValues& values) {
 }  // namespace
 
 NearPoint::NearPoint(const Mechanism& mechanism, const Equations& equations,
-                     const std::vector<std::pair<std::string, ex>>& near)
+                     const std::vector<std::pair<std::string, ex>>& near, Inputs inputs)
     : m_(mechanism), e_(equations) {
+    if (inputs == Inputs::in_time)
+        for (const auto& [input, value] : inputs_in_time(m_))
+            if (!value.is_zero() && value.has(m_.t)) in_time_[input] = value;
     for (int i = 0; i < m_.size(); ++i) {
         base_[m_.qdot[i]] = 0;
         base_[m_.qddot[i]] = 0;
@@ -68,6 +74,7 @@ NearPoint::NearPoint(const Mechanism& mechanism, const Equations& equations,
     }
     for (const Mechanism::Input& input : m_.inputs)
         for (const GiNaC::symbol& derivative : input.derivative) {
+            if (in_time_.contains(derivative)) continue;
             base_[derivative] = 0;
             small_.push_back({derivative, 0});
         }
@@ -95,8 +102,9 @@ std::string NearPoint::obstacle() {
         for (const ex& row : {GiNaC::ex(GiNaC::add(std::move(acceleration))),
                               GiNaC::ex(GiNaC::add(std::move(rate))), c.position.value_or(0)}) {
             if (m_.z->tree_size(row) > longest_tested) return too_long();
-            bound_.push_back(m_.z->expand(row));
-            if (zero_test(at(bound_.back()), m_).zero != true)
+            bound_.push_back(read(m_.z->expand(row)));
+            const bool is_solved = !in_time_.empty() && bound_.size() % rows_of_constraint == 1;
+            if (!is_solved && zero_test(at(bound_.back()), m_).zero != true)
                 return say("what it is held near does not obey the constraint '{}'", c.name);
         }
     }
@@ -106,7 +114,7 @@ std::string NearPoint::obstacle() {
         for (std::size_t k = 0; k < e_.A.size(); ++k) terms.push_back(-e_.A[k][i] * e_.lambda[k]);
         const ex row = GiNaC::add(std::move(terms));
         if (m_.z->tree_size(row) > longest_tested) return too_long();
-        rows_.push_back(m_.z->expand(row));
+        rows_.push_back(read(m_.z->expand(row)));
     }
     if (!find_multipliers()) return say("the constraints leave their multipliers open there");
     for (int i = 0; i < m_.size(); ++i)
@@ -174,22 +182,32 @@ std::optional<std::vector<std::size_t>> NearPoint::reduce(std::vector<std::vecto
     return echelon(rows, columns, NormalField{m_});
 }
 
-/// The multipliers at the point.
+/// The multipliers, and where inputs move it the accelerations.
+GiNaC::exvector NearPoint::unknowns_at_point() const {
+    GiNaC::exvector result(e_.lambda.begin(), e_.lambda.end());
+    if (!in_time_.empty()) result.insert(result.end(), m_.qddot.begin(), m_.qddot.end());
+    return result;
+}
+
 bool NearPoint::find_multipliers() {
-    const std::size_t m = e_.lambda.size();
-    if (m == 0) return true;
+    const GiNaC::exvector unknown = unknowns_at_point();
+    if (unknown.empty()) return true;
     GiNaC::exmap none;
-    for (const GiNaC::symbol& lambda : e_.lambda) none[lambda] = 0;
+    for (const ex& one : unknown) none[one] = 0;
+    for (const ex& one : unknown) base_.erase(one);
     std::vector<std::vector<ex>> rows;
-    for (const ex& row : rows_) {
+    const auto add = [&](const ex& row) {
         const ex here = at(row);
         rows.emplace_back();
-        for (const GiNaC::symbol& lambda : e_.lambda) rows.back().push_back(here.diff(lambda));
+        for (const ex& one : unknown) rows.back().push_back(here.diff(GiNaC::ex_to<GiNaC::symbol>(one)));
         rows.back().push_back(-here.subs(none, GiNaC::subs_options::no_pattern));
-    }
-    const auto pivots = reduce(rows, m);
-    if (!pivots || pivots->size() < m) return false;
-    for (std::size_t k = 0; k < m; ++k) base_[e_.lambda[k]] = rows[k][m];
+    };
+    for (const ex& row : rows_) add(row);
+    if (!in_time_.empty())
+        for (std::size_t k = 0; k < bound_.size(); k += rows_of_constraint) add(bound_[k]);  // their accelerations
+    const auto pivots = reduce(rows, unknown.size());
+    if (!pivots || pivots->size() < unknown.size()) return false;
+    for (std::size_t k = 0; k < unknown.size(); ++k) base_[unknown[k]] = rows[k][unknown.size()];
     return true;
 }
 

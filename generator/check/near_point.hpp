@@ -7,8 +7,9 @@
 ///     if (near.obstacle().empty())
 ///         near.slopes_of(near.rows()[0])        // of an equation by q'', λ and each small deviation
 ///
-/// Rates that are not named, and inputs, are near 0; coordinates that are not named and that no constraint gives
-/// there may have any value.
+/// Rates that are not named are near 0; coordinates that are not named and that no constraint gives there may have
+/// any value. Inputs are near 0, or have the values that the scene gives them in time; then accelerations and
+/// multipliers at the point are what these make them.
 
 #include <optional>
 #include <string>
@@ -27,16 +28,20 @@ public:
         GiNaC::ex value;  ///< the value from which the variable differs little
     };
 
+    enum class Inputs { small, in_time };
+
     /// `near`: coordinates, and rates as "x'", with their values in parameters. `mechanism` and `equations` must
     /// outlive this.
     NearPoint(const Mechanism& mechanism, const Equations& equations,
-              const std::vector<std::pair<std::string, GiNaC::ex>>& near);
+              const std::vector<std::pair<std::string, GiNaC::ex>>& near, Inputs inputs = Inputs::small);
 
     /// Fills in the point itself and the equations; the reason why that cannot be done, if it cannot.
     std::string obstacle();
     /// Whether that reason is that the point is no equilibrium and no steady motion.
     bool is_no_equilibrium() const { return is_no_equilibrium_; }
 
+    /// Without the inputs whose values in time are taken.
+    GiNaC::ex read(const GiNaC::ex& e) const { return e.subs(in_time_, GiNaC::subs_options::no_pattern); }
     GiNaC::ex at(const GiNaC::ex& e) const { return e.subs(base_, GiNaC::subs_options::no_pattern); }
     const std::vector<Small>& small() const { return small_; }
     /// Of the equations of motion, each equal to zero.
@@ -56,10 +61,11 @@ private:
     std::string place_dependent();
     std::optional<GiNaC::ex> root_near(const GiNaC::ex& f, const GiNaC::symbol& x, double start) const;
     bool find_multipliers();
+    GiNaC::exvector unknowns_at_point() const;
 
     const Mechanism& m_;
     const Equations& e_;
-    GiNaC::exmap base_;
+    GiNaC::exmap in_time_, base_;
     std::vector<Small> small_;
     std::vector<GiNaC::ex> rows_, bound_;
     bool is_no_equilibrium_ = false;

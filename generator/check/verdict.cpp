@@ -15,6 +15,8 @@ const char* name_of(Assumption::Kind kind) {
             return "pose";
         case Assumption::Kind::closed:
             return "closed";
+        case Assumption::Kind::small:
+            return "small";
         case Assumption::Kind::stated:
             return "stated";
     }

@@ -51,6 +51,7 @@ struct Assumption {
         parameter,  ///< the sign of what consists of parameters
         pose,       ///< the one in which the scene's impulses act
         closed,     ///< these contacts are
+        small,      ///< inputs, beside the deviations from a state
         stated      ///< by the claim itself
     };
     Kind kind;

@@ -8,6 +8,7 @@
 #include "model/formalism/elements.hpp"
 #include "model/formalism/needs.hpp"
 #include "model/formalism/routh.hpp"
+#include "model/inputs_in_time.hpp"
 
 namespace alembert {
 
@@ -96,15 +97,7 @@ ex DerivedSystem::without_accelerations(const ex& e) const {
 }
 
 GiNaC::exmap DerivedSystem::inputs_in_time() const {
-    GiNaC::exmap result;
-    for (const Mechanism::Input& input : m_.inputs) {
-        ex value = m_.z->expand(input.value);
-        for (const GiNaC::symbol& derivative : input.derivative) {
-            result[derivative] = value;
-            value = value.diff(m_.t);
-        }
-    }
-    return result;
+    return alembert::inputs_in_time(m_);
 }
 
 GiNaC::exmap DerivedSystem::without_resistance() const {

@@ -92,6 +92,8 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (!claim.source.empty()) line("", claim.source);
     if (const auto where = conditions_of(c); !where.empty())
         line(say("where "), fmt::format("{}", fmt::join(where, ", ")));
+    for (const Assumption& one : c.assumed)
+        if (one.kind == Assumption::Kind::small) line("", one.text);
     if (!c.reason.empty()) line("", c.reason);
     if (c.other_branch) {
         const bool holds = c.other_branch->verdict == Verdict::proved;
