@@ -223,7 +223,7 @@ TEST_CASE("readings: slopes along the motion, single motions, matrices that are 
     CHECK(statuses(pendulum, "$$\\theta = A\\cosh(\\alpha t)$$") == "-");
     CHECK(statuses(pendulum, "Then $\\theta = \\frac12\\ddot\\theta t^2$.") == "-");
     CHECK(statuses(pendulum,
-                   "$$V = -mgl\\cos\\theta,\\quad V'(\\theta) = mgl\\sin\\theta,\\quad V''(0) = mgl$$") == "RR-");
+                   "$$V = -mgl\\cos\\theta,\\quad V'(\\theta) = mgl\\sin\\theta,\\quad V''(0) = mgl$$") == "RRR");
     const std::string M = "$$\\begin{pmatrix} m & 0 \\\\ 0 & m\\end{pmatrix}\\begin{pmatrix}\\ddot x\\\\ \\ddot "
                           "y\\end{pmatrix} + \\begin{pmatrix} k x \\\\ ",
                       end = " k y\\end{pmatrix} = 0$$";

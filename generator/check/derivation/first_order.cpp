@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/derivation/first_order.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "check/slip.hpp"
@@ -54,13 +55,14 @@ std::vector<BaseState> base_states(const Scene& scene) {
 
 namespace {
 
-/// The expression along deviations of this size.
+/// The expression along deviations of this size, of all coordinates or of these.
 ex along_deviations(const ex& residual, const BaseState& base, const GiNaC::symbol& small,
-                    const DerivedSystem& system) {
+                    const DerivedSystem& system, const std::vector<GiNaC::symbol>* only = nullptr) {
     const Mechanism& m = system.mechanism();
     World world(system.scene(), m, system.sheets());
     GiNaC::exmap near;
     for (int i = 0; i < m.size(); ++i) {
+        if (only != nullptr && std::find(only->begin(), only->end(), m.q[i]) == only->end()) continue;
         ex value = 0;
         for (const auto& [name, text] : base.values)
             if (name == m.q[i].get_name()) value = m.z->expand(world.value(text));
@@ -97,6 +99,28 @@ bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_c
         if ((k > 0 || !up_to_constant) && !is_identically_zero(at, m)) return false;
         if (k < order) along = along.diff(small);
     }
+    return true;
+}
+
+std::optional<bool> agree_to_written_order(const ex& left, const ex& right, const BaseState& base,
+                                           const std::vector<GiNaC::symbol>& small, const DerivedSystem& system) {
+    constexpr int most = 4;
+    const Mechanism& m = system.mechanism();
+    if (small.empty() || m.z->tree_size(left - right) > longest) return std::nullopt;
+    const GiNaC::symbol size("small");
+    const auto parts_of = [&](const ex& side) {
+        std::vector<ex> parts;
+        ex along = along_deviations(side, base, size, system, &small);
+        for (int k = 0; k <= most + 1; ++k, along = along.diff(size))
+            parts.push_back(along.subs(size == 0, GiNaC::subs_options::no_pattern));
+        return parts;
+    };
+    const std::vector<ex> of_left = parts_of(left), of_right = parts_of(right);
+    int order = most + 1;
+    while (order > 0 && is_identically_zero(of_right[static_cast<std::size_t>(order)], m)) --order;
+    if (order == 0 || order > most) return std::nullopt;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(order); ++k)
+        if (!is_identically_zero(of_left[k] - of_right[k], m)) return false;
     return true;
 }
 

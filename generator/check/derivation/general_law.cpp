@@ -25,7 +25,8 @@ bool is_general(const Letter& letter, int dots, const Letters& letters, bool dis
     if (letters.is_authors(letter)) return false;
     if (const auto name = letters.name_of(letter))  // a charge q has no rate
         return !displayed && letter.base == "q" && dots > 0 && letters.is_of_scene(*name) && !letters.moves(*name);
-    if (!displayed && letter.index.empty() && (letter.base == "Q" || letter.raised == "*")) return true;
+    const bool is_inertia_force = letter.base == "F" && letter.raised == "*";
+    if (!displayed && letter.index.empty() && (letter.base == "Q" || is_inertia_force)) return true;
     if (!displayed && letter.base == "A" && letter.raised == "T") return true;
     if (!displayed && letter.base == "u" && letter.index.empty()) return true;
     if (letter.index.empty()) return letter.base == "q";

@@ -108,6 +108,7 @@ void Marker::run() {
         if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
         if (speaks_of_general_case(statement_->words)) special_values_.clear(), case_.clear();
         hear_special_values(statement_->words);
+        if (ends_sentence(statement_->words) || statement_->displayed) stated_place_.clear();
         is_case_settled_ = is_case_settled_ || holds_sentence(statement_->words);
         begins_case_ =
             begins_case_ || ends_sentence(statement_->words) || statement_->words.find("- ") != std::string::npos;
@@ -171,6 +172,11 @@ void Marker::line(std::size_t s, std::size_t k) {
         weigh_condition(line, lhs, rhs);
     } catch (const NoMeaning&) {  // what has no value for itself is not excused
     }
+    if (line.status == LineStatus::follows && !is_judged_wrong(*line.follows_from)) {
+        line.reason = say("it follows from line {}, which is not judged", lines[*line.follows_from].line);
+        line.status = LineStatus::not_about_scene;
+        line.follows_from.reset();
+    }
     const bool is_of_rest = line.status == LineStatus::not_about_scene && is_rest_assumed_;
     if (!is_of_rest && (holds_rates(lhs) || holds_rates(rhs))) is_rest_assumed_ = false;
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
@@ -178,6 +184,13 @@ void Marker::line(std::size_t s, std::size_t k) {
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
         take_in(s, k);
+}
+
+/// Whether something can follow from the line as from a mistake: definitions may be wrong too.
+bool Marker::is_judged_wrong(std::size_t k) const {
+    const LineStatus status = lines[k].status;
+    return status != LineStatus::not_about_scene && status != LineStatus::not_understood &&
+           status != LineStatus::undecided;
 }
 
 bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
@@ -266,7 +279,11 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (is_of_limit(line, lhs)) return;
     if (is_of_state(line, lhs, rhs) || judge_value(line, lhs, rhs, relation)) return;
     if (judge_vector(line, lhs, rhs)) return;
-    if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
+    const bool is_period = speaks_of_period_ || (lhs.letter.base == "T" && holds_whole_turn(rhs));
+    if (std::exchange(speaks_of_period_, is_period); is_period && lhs.kind == Kind::letter) {
+        if (is_frequency(line, lhs, rhs, 1)) return;
+        if (lhs.letter == Letter{.base = "T"} && holds_whole_turn(rhs)) return define(line, lhs, rhs, 1);
+    }
     const Lone lone = lone_letter(lhs);
     const bool is_again = lone.letter != nullptr && frequency_letters_.contains(lone.letter->letter) &&
                           is_frequency_again(line, *lone.letter, rhs, lone.power);  // of another state or case
@@ -399,7 +416,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) ||
+    if (is_approximation(line, sides) || is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) ||
         (is_aside() && is_assumption(line, sides)) || holds_after_impact(line, sides) ||
         is_assumption(line, sides) || is_reduced_momentum(line, sides))
         return;

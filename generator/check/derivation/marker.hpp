@@ -26,6 +26,12 @@ namespace alembert {
 /// A number, perhaps with a unit, π or a fraction of such.
 bool is_number(const Math& side);
 
+/// A number with a point stands in it.
+bool holds_decimals(const Math& math);
+
+/// 2 π as a factor of it, as of a period.
+bool holds_whole_turn(const Math& math);
+
 /// A number that has been rounded, or one with a unit: 4.47 rad/s.
 bool is_rounded_value(const Math& side);
 
@@ -83,6 +89,10 @@ private:
     bool is_unknown_force(const Letter& letter) const;
     bool is_effective_potential(const Math& lhs, const Math& rhs) const;
     bool holds_letters_that_move(const Math& math) const;
+    std::optional<double> in_numbers(const GiNaC::ex& value, const GiNaC::exmap& values) const;
+    std::optional<double> value_of_numbers(const Math& side);
+    GiNaC::exmap own_values() const;
+    bool judge_calculation(MarkedLine& line, const Math& formula, double written);
     bool judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -114,6 +124,7 @@ private:
     bool is_reduced_momentum(MarkedLine& line, const Sides& sides);
     bool deviates_from_motion() const;
     bool holds_near_some_rest(MarkedLine& line, const GiNaC::ex& residual);
+    bool is_approximation(MarkedLine& line, const Sides& sides);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
     bool is_angle_of_rest(MarkedLine& line, const Math& side, const ClaimText& value);
@@ -129,6 +140,13 @@ private:
     GiNaC::symbol coordinate_of_value(const Letter& letter) const;
     void know_state_letter(const Letter& letter, const GiNaC::symbol& value);
     bool is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs);
+    MathPtr with_slopes(const MathPtr& math) const;
+    bool is_at_number(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool is_of_rest_unsaid(MarkedLine& line, const Sides& sides);
+    bool holds_to_digits(const Sides& sides);
+    bool holds_at_stated_place(const GiNaC::ex& residual);
+    void note_place(const Math& lhs, const Math& rhs);
     bool holds_function_of_state(const Math& math) const;
     bool is_refuted_at_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& there,
                              bool is_of_motion);
@@ -180,6 +198,7 @@ private:
     bool is_on_branch(MarkedLine& line, const Sides& sides);
     bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned);
     void take_in_special_case(const Math& lhs, const Math& rhs);
+    void stop_input(const GiNaC::ex& name, const GiNaC::ex& value);
     void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);
     bool is_case_fresh() const;
@@ -191,6 +210,7 @@ private:
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool is_wrong_energy_of_start(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
+    bool changes_in_motion(const std::string& name) const;
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter, const Math* value = nullptr);
     static bool component_of_axis(const Letter& letter);
@@ -229,6 +249,7 @@ private:
     bool repeats_law(const Math& value) const;
     void take_in_as(const Math& what, const Math& value);
     void use_all_forces(bool all);
+    bool is_judged_wrong(std::size_t k) const;
     bool has_several_unknown(const Math& lhs, const Math& rhs) const;
     bool has_quantities(const Sides& sides) const;
     bool repeats_law(const Sides& sides) const;
@@ -236,6 +257,7 @@ private:
     bool speaks_of_quantity(const LineNotes& notes) const;
     std::map<std::string, GiNaC::ex> known_in_motion() const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
+    void withhold_unexplained(std::size_t k);
     void name_held(MarkedLine& line) const;
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);
@@ -296,6 +318,8 @@ private:
     bool begins_case_ = true;        ///< whether a sentence or an item of a list has begun since the last of them
     GiNaC::exmap case_;              ///< those of the last sentence or item of a list
     GiNaC::exmap special_values_;    ///< of parameters, as the derivation states them
+    std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0
+    GiNaC::exmap stated_place_;    ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
     GiNaC::exmap used_values_;       ///< those of them for which the last line followed
     std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
     bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer

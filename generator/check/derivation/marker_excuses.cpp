@@ -94,6 +94,7 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
 std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1)
         return say("the words may mean the energy of a part");
+    if (speaks_of_other_system(statement_->words)) return say("the words speak of another system");
     const std::size_t masses = system_.scene().particles.size() + system_.scene().bodies.size();
     const bool is_numbered = lhs.kind == Kind::letter && lhs.dots == 0 && !lhs.letter.index.empty() &&
                              lhs.letter.index.find_first_not_of("0123456789") == std::string::npos;
@@ -111,7 +112,8 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
         !system_.equations().A.empty())
         return say("an approximation of energies on constraints is not judged");
     // T and V are what they are in every state, but not for every value of the parameters.
-    const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value();
+    const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value() &&
+                           !letters_.is_of_scene(letters_.name_of(lhs.letter).value_or(""));
     const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
                                !statement_->displayed && system_.mechanism().size() > 1;
     const bool is_steady =
@@ -120,6 +122,8 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady || is_approximate;
     if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
+    if (is_own && !statement_->displayed && is_number(rhs) && is_of_parameters(truth_.value(claim_text(lhs, as_written()).text)))
+        return say("a value in numbers; lines are judged for all values");  // W = 1 of W = m g l
     if (keeps_its_start(lhs, rhs)) {
         is_of_special_start_ = true;
         return say("it keeps its value, and holds for motions that start so");
@@ -148,22 +152,57 @@ bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
 /// A mistake only under every reading.
 void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (line.status != LineStatus::mistake && line.status != LineStatus::follows) return;
+    if (holds_with_slopes(line, lhs, rhs)) return;
     const Sides sides = sides_of(lhs, rhs);
     if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text)))
         return settle_in_special_case(line);
     if (line.status != LineStatus::mistake) return;
+    if (holds_to_digits(sides)) {
+        line.status = LineStatus::right;
+        line.reason = say("to the digits that are written");
+        notes_.back().claim = {};
+        return;
+    }
+    if (holds_at_stated_place(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
+        line.status = LineStatus::right;
+        line.reason = say("where {}", told_values(stated_place_));
+        notes_.back().claim = {};
+        return;
+    }
     if (holds_at_pose(sides)) {
         line.status = LineStatus::right;
         line.reason = say("at the pose of the impact");
         notes_.back().claim = {};
         return;
     }
-    if (notes_.back().is_sure) return;
+    if (notes_.back().is_sure || is_of_rest_unsaid(line, sides)) return;
     const std::optional<std::string> reason = excuse(line, lhs, rhs);
     if (!reason) return;
     line.status = LineStatus::not_about_scene;
     line.reason = *reason;
     line.claim.clear();
+}
+
+/// m g l sin φ = 0 without a word of rest: what holds at rest, and fails in motion for want of accelerations alone.
+bool Marker::is_of_rest_unsaid(MarkedLine& line, const Sides& sides) {
+    const Mechanism& m = system_.mechanism();
+    if (displacements_ != nullptr || has_quantities(sides)) return false;
+    if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs) || speaks_of_motion(said_)) return false;
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    if (!m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
+        return false;
+    std::string reason;
+    const RestStates::About about{
+        .names_place = names_coordinate(*sides.lhs) || names_coordinate(*sides.rhs),
+        .of_number = is_number(*sides.lhs) || is_number(*sides.rhs)};
+    const auto found =
+        found_at_rest([&](RestStates& states) { return states.vanishes(residual, about); }, true, reason);
+    if (found != RestStates::Found::everywhere && found != RestStates::Found::on_branch) return false;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("it holds at states of rest; whether they are meant is not said");
+    notes_.back().claim = {};
+    line.claim.clear();
+    return true;
 }
 
 /// left − right, of squares where a root stands: s' = √(2 a s).

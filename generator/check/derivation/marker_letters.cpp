@@ -130,6 +130,15 @@ bool Marker::speaks_of_acceleration() const {
     });
 }
 
+/// A letter of the author's for what changes in motion, as a force that an equation has determined.
+bool Marker::changes_in_motion(const std::string& name) const {
+    const Mechanism& m = system_.mechanism();
+    const auto known = known_.find(name);
+    return known != known_.end() && !letters_.is_of_scene(name) &&
+           (m.z->depends(known->second, m.q) || m.z->depends(known->second, m.qdot) ||
+            m.z->depends(known->second, m.qddot));
+}
+
 /// "…, where M = m_1 + m_2": a letter that a later line introduces.
 bool Marker::introduce_ahead(const Letter& letter) {
     if (ahead_.contains(letter)) return false;
@@ -140,7 +149,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
         collect_letters(value, all);
         return std::none_of(all.begin(), all.end(), [&](const auto& item) {
             const auto name = letters_.name_of(item.first);
-            return !name || letters_.moves(*name);
+            return !name || letters_.moves(*name) || changes_in_motion(*name);
         });
     };
     for (const WrittenStatement& statement : written_.statements) {
@@ -161,7 +170,8 @@ bool Marker::introduce_ahead(const Letter& letter) {
                     continue;  // "we get N = …" of the force that it determines
                 const bool is_explained =
                     !statement.displayed && !is_accelerated(value) && explains(statement.words);
-                if (of_motion && !is_explained && !is_constant(value))
+                static const std::set<std::string> forces{"N", "T", "S", "F", "R", "f", "Z", "P"};
+                if (of_motion && !is_explained && (!is_constant(value) || forces.contains(letter.base)))
                     continue;  // a force, which the equation itself determines
                 try {
                     MarkedLine there;
@@ -331,6 +341,12 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
         return false;
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
+    const bool is_state = std::any_of(m.q.begin(), m.q.end(), [&](const auto& q) { return value.is_equal(q); });
+    if (!holds && is_state && is_word_for_constant(letter.letter.base) && !statement_->displayed) {  // φ = const
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("it describes a state; lines are judged for all motions");
+        return true;
+    }
     if (!holds && is_word_for_constant(letter.letter.base) && follows_in_special_case(rate.residual)) {
         settle_in_special_case(line);
         return true;
@@ -345,6 +361,7 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
     notes_.back().left = text;
     line.status = holds ? LineStatus::right : LineStatus::mistake;
+    notes_.back().is_sure = !holds;
     if (holds && !is_word_for_constant(letter.letter.base)) kept_.insert(bind(letter.letter, value));
     return true;
 }
@@ -558,6 +575,7 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     const std::optional<std::size_t> wrong = own_.wrong_in(own.names);
     const std::string name = bind(letter.letter, truth);
     own_.state(name, stated, wrong);
+    if (holds_decimals(rhs)) rounded_.insert(name);
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
     if (power == 1) hold_momenta(name, text, own, wrong);
@@ -586,18 +604,23 @@ void Marker::hold_momenta(const std::string& name, const ClaimText& text, const 
     for (const auto& [held, letter] : letters) truth_.know(held, letter);
     const ex value = truth_.value(text.text);
     for (const auto& [held, letter] : letters) truth_.know(held, known_.at(held));
-    const auto slopes_of = [&](const ex& e) { return substitute(*m.z, m.z->pull_back({{e, 1}}, by), truths); };
-    const std::vector<ex> slopes = slopes_of(value), own_slopes = slopes_of(own_.value_with(own.text, letters));
-    for (std::size_t k = 0; k < by.size(); ++k) {
-        const std::string key = fmt::format("diff({},{})", name, names[k]);
-        own_.state_step(key, own_slopes[k], wrong);
-        if (known_.contains(name) && quantity_of({.base = name})) continue;  // H itself is what it is
+    const auto hold = [&](const std::string& key, const ex& slope, const ex& own_slope) {
+        own_.state_step(key, substitute(*m.z, {own_slope}, truths)[0], wrong);
+        const auto quantity = quantity_of({.base = name});
+        if (quantity && letters_.name_of(*quantity) == name) return;  // H itself is what it is
         const std::string step = letters_.free_name(fmt::format("held_{}", held_.size() + 1));
         held_[key] = step;
-        known_[step] = m.z->name(slopes[k]);
+        known_[step] = m.z->name(substitute(*m.z, {slope}, truths)[0]);
         truth_.know(step, known_[step]);
         own_.state(step, known_[step], {});
-    }
+    };
+    const std::vector<ex> slopes = m.z->pull_back({{value, 1}}, by),
+                          own_slopes = m.z->pull_back({{own_.value_with(own.text, letters), 1}}, by);
+    for (std::size_t k = 0; k < by.size(); ++k)
+        hold(fmt::format("diff({},{})", name, names[k]), slopes[k], own_slopes[k]);
+    for (std::size_t k = 0; k < m.q.size(); ++k)  // ∂²U/∂r², of frequencies about a state
+        hold(fmt::format("diff({0},{1},{1})", name, names[k]), m.z->pull_back({{slopes[k], 1}}, {m.q[k]})[0],
+             m.z->pull_back({{own_slopes[k], 1}}, {m.q[k]})[0]);
 }
 
 }  // namespace alembert

@@ -132,7 +132,11 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
         const auto name = letter == nullptr ? std::nullopt : letters_.name_of(letter->letter);
         return name && letters_.is_of_scene(*name);
     };
-    const Lone left = lone_letter(lhs), right = lone_letter(rhs);
+    const auto alone = [&](const Math& side) {  // h'' of an input too
+        const bool is_rate = side.kind == Kind::letter && is_input(letters_.name_of(side.letter).value_or(""));
+        return is_rate ? Lone{&side, 1} : lone_letter(side);
+    };
+    const Lone left = alone(lhs), right = alone(rhs);
     const bool is_left = is_parameter(left.letter);
     if (!is_left && !is_parameter(right.letter)) {
         under_condition_ = lines_of_condition;
@@ -144,11 +148,22 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
         const ex value = m.z->expand(truth_.value(claim_text(is_left ? rhs : lhs, as_written()).text));
         if (!GiNaC::is_a<GiNaC::symbol>(name) || value.has(name)) return;
         set_special_value(name, GiNaC::pow(value, GiNaC::numeric(1, lone.power)));
+        stop_input(name, value);
         const bool is_datum = GiNaC::is_a<GiNaC::numeric>(value) && !value.is_zero();
         if (!is_datum) is_case_settled_ = false;  // k = 40 N/m holds for the whole page
     } catch (const NoMeaning&) {
         under_condition_ = lines_of_condition;
     }
+}
+
+/// An input that is constant, or whose rate is, has no higher derivatives: of h' = 0 also h'' = 0.
+void Marker::stop_input(const ex& name, const ex& value) {
+    if (!is_of_parameters(value)) return;
+    for (const Mechanism::Input& input : system_.mechanism().inputs)
+        for (std::size_t k = 0; k + 1 < input.derivative.size(); ++k)
+            if (name.is_equal(input.derivative[k]))
+                for (std::size_t higher = k + 1; higher < input.derivative.size(); ++higher)
+                    set_special_value(input.derivative[higher], 0);
 }
 
 /// The values stay in letters that have none: c_1 = c_2, then c_2 = 0.

@@ -154,6 +154,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     if (is_aside() || speaks_of_special_case(statement_->words) || ends_at_place(statement_->words) ||
         sets_value(statement_->words))
         under_condition_ = lines_of_condition;
+    note_place(*sides.lhs, *sides.rhs);
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
     return true;

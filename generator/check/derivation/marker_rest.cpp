@@ -91,9 +91,13 @@ Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool m
 
 /// dV/dφ = 0 is what states of rest obey, whatever the words say.
 bool Marker::is_condition_on_potential(MarkedLine& line, const Math& lhs, const Math& rhs) {
-    const bool is_slope = lhs.kind == Kind::partial && lhs.args[0]->kind == Kind::letter &&
-                          letters_.name_of(lhs.args[0]->letter) == letters_.name_of(MechanicalQuantity::potential);
-    const bool is_said = says_rest() || lhs.text == "d";
+    const std::string potential = letters_.name_of(MechanicalQuantity::potential);
+    const bool is_function = lhs.kind == Kind::applied && lhs.dots == 1 && lhs.args.size() == 1 &&
+                             letters_.moves(letters_.name_of(lhs.args[0]->letter).value_or(""));  // V'(θ)
+    const bool is_slope = is_function ? letters_.name_of(lhs.letter) == potential
+                                      : lhs.kind == Kind::partial && lhs.args[0]->kind == Kind::letter &&
+                                            letters_.name_of(lhs.args[0]->letter) == potential;
+    const bool is_said = says_rest() || lhs.text == "d" || is_function;
     if (!is_slope || !is_said || rhs.kind != Kind::number || rhs.text != "0") return false;
     const ex slope = truth_.value(sides_of(lhs, rhs).left.text);
     std::string reason;
@@ -187,13 +191,22 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     collect_letters(rhs, all);
     for (const auto& [letter, dots] : all)
         if (dots > 0 && state_letters_.contains(letter)) return false;  // φ'_0
-    if (holds_function_of_state(lhs) || holds_function_of_state(rhs)) return false;
+    if (holds_function_of_state(lhs) || holds_function_of_state(rhs)) {
+        const MathPtr left = with_slopes(std::make_shared<Math>(lhs)),
+                      right = with_slopes(std::make_shared<Math>(rhs));
+        if (holds_function_of_state(*left) || holds_function_of_state(*right)) return false;
+        return is_of_state_letter(line, *left, *right);
+    }
     static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
     const bool is_named = std::all_of(all.begin(), all.end(), [&](const auto& item) {
         return !state_letters_.contains(item.first) || indices.contains(item.first.index) ||
                rest_letters_.contains(item.first);
     });
-    const bool is_said = !from_rest_ && (says_rest() || is_named || steady_lines_ > 0);
+    static const std::set<std::string> of_motion{"max", "min", "i", "f"};  // where it turns, begins or ends
+    const bool is_of_turn = std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        return state_letters_.contains(item.first) && of_motion.contains(item.first.index);
+    });
+    const bool is_said = !from_rest_ && !is_of_turn && (says_rest() || is_named || steady_lines_ > 0);
     const bool is_case = speaks_of_special_case(statement_->words);
     if (!statement_->displayed && is_case) {  // "if ω = Ω", "Resonance ω_1 = 2 ω_2"
         under_condition_ = lines_of_condition;

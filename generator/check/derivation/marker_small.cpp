@@ -273,4 +273,45 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
     return false;
 }
 
+namespace {
+
+/// Coordinates of which a sine, a cosine or the like is taken.
+void collect_angles(const ex& e, const std::vector<GiNaC::symbol>& coordinates, std::vector<GiNaC::symbol>& to) {
+    if (GiNaC::is_a<GiNaC::function>(e))
+        for (const GiNaC::symbol& q : coordinates)
+            if (e.has(q) && std::find(to.begin(), to.end(), q) == to.end()) to.push_back(q);
+    for (const ex& part : e) collect_angles(part, coordinates, to);
+}
+
+}  // namespace
+
+/// r θ'² − g (1 − cos θ) ≈ r θ'² − g θ²/2: the same to the order that is written, of the angles or of all
+/// coordinates; momenta stay what they are.
+bool Marker::is_approximation(MarkedLine& line, const Sides& sides) {
+    if (relation_ != Relation::approximately) return false;
+    const Mechanism& m = system_.mechanism();
+    std::vector<std::string> held;
+    for (const ClaimText* side : {&sides.left, &sides.right})
+        for (const std::string& name : side->names)
+            if (known_.contains(name) && (name.starts_with("p_") || kept_.contains(name))) held.push_back(name);
+    for (const std::string& name : held) truth_.know(name, system_.held(name));
+    const ex left = m.z->expand(truth_.value(sides.left.text)), right = m.z->expand(truth_.value(sides.right.text));
+    for (const std::string& name : held) truth_.know(name, known_.at(name));
+    std::vector<GiNaC::symbol> angles;
+    collect_angles(left, m.q, angles);
+    bool fails = false;
+    for (const BaseState& base : bases())
+        for (const std::vector<GiNaC::symbol>& small : {std::as_const(angles), m.q}) {
+            const std::optional<bool> agree = agree_to_written_order(left, right, base, small, system_);
+            fails = fails || agree == false;
+            if (agree != true) continue;
+            line.status = LineStatus::right_near;
+            line.reason = say("to the order that is written, near {}", base.text);
+            notes_.back().claim = {};
+            return true;
+        }
+    notes_.back().is_sure = fails && !angles.empty();  // a polynomial in the angles that is another
+    return false;
+}
+
 }  // namespace alembert

@@ -144,7 +144,8 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
     };
     return std::any_of(all.begin(), all.end(), is_of_scene) &&
            std::all_of(all.begin(), all.end(), [&](const auto& item) {
-               return item.second == 0 && (is_parameter(name_of(item)) || is_own(name_of(item)));
+               const bool is_rate = item.second > 0 && is_input(name_of(item));  // the hand is at rest, h' = 0
+               return is_rate || (item.second == 0 && (is_parameter(name_of(item)) || is_own(name_of(item))));
            });
 }
 
@@ -187,7 +188,10 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         line.reason = std::move(reason);
         return true;
     };
-    if (are_rates_at_rest(lhs, rhs) && assumes_rest()) {
+    const auto is_of_input = [&](const Math& side) {
+        return side.kind == Kind::letter && is_input(letters_.name_of(side.letter).value_or(""));
+    };
+    if (are_rates_at_rest(lhs, rhs) && !is_of_input(lhs) && !is_of_input(rhs) && assumes_rest()) {
         is_rest_assumed_ = true;
         return tell(say("a state of rest"));
     }
@@ -199,6 +203,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (says_rest() && is_lone_force(lhs) && rhs.kind == Kind::number && rhs.text == "0")
         return tell(say("a state of rest"));
     if (is_of_one_motion(lhs, rhs)) return tell(say("it describes one motion; lines are judged for all motions"));
+    if (is_at_number(line, lhs, rhs)) return true;
     for (const Math* side : {&lhs, &rhs})
         if (side->kind == Kind::applied && side->args.size() == 1 && side->args[0]->kind == Kind::number) {
             const auto name = letters_.name_of(side->letter);

@@ -74,6 +74,50 @@ bool is_rounded_value(const Math& side) {
     return side.kind == Kind::quantity || (side.kind == Kind::number && Printed{.number = &side}.is_rounded());
 }
 
+bool holds_decimals(const Math& math) {
+    return (math.kind == Kind::number && Printed{.number = &math}.is_rounded()) ||
+           std::any_of(math.args.begin(), math.args.end(),
+                       [](const MathPtr& arg) { return holds_decimals(*arg); });
+}
+
+/// Of the scene's parameters.
+GiNaC::exmap Marker::own_values() const {
+    GiNaC::exmap own;
+    for (const Mechanism::Parameter& p : system_.mechanism().parameters)
+        if (p.independent) own[p.symbol] = p.number();
+    return own;
+}
+
+/// Nothing of what is no real number with these values.
+std::optional<double> Marker::in_numbers(const ex& value, const GiNaC::exmap& values) const {
+    const ex there =
+        system_.mechanism().z->expand(value).subs(values, GiNaC::subs_options::no_pattern).evalf();
+    if (!GiNaC::is_a<GiNaC::numeric>(there) || !GiNaC::ex_to<GiNaC::numeric>(there).is_real()) return std::nullopt;
+    return GiNaC::ex_to<GiNaC::numeric>(there).to_double();
+}
+
+/// (1.2 · 9.81)/50 m: of numbers alone, with decimals among them.
+std::optional<double> Marker::value_of_numbers(const Math& side) {
+    std::map<Letter, int> all;
+    collect_letters(side, all);
+    if (!all.empty() || !holds_decimals(side)) return std::nullopt;
+    return in_numbers(truth_.value(claim_text(side, as_written()).text), {});
+}
+
+/// ω_1² + ω_2² = 3 ω_0² where ω_1 is 0.618 ω_0: of constants, with the scene's values.
+bool Marker::holds_to_digits(const Sides& sides) {
+    constexpr double rounding_on_the_way = 2e-3;
+    const auto is_rounded = [&](const std::string& name) { return rounded_.contains(name); };
+    if (std::none_of(sides.left.names.begin(), sides.left.names.end(), is_rounded) &&
+        std::none_of(sides.right.names.begin(), sides.right.names.end(), is_rounded))
+        return false;
+    const GiNaC::exmap own = own_values();
+    const auto left = in_numbers(truth_.value(sides.left.text), own),
+               right = in_numbers(truth_.value(sides.right.text), own);
+    return left && right &&
+           std::abs(*left - *right) <= rounding_on_the_way * std::max(std::abs(*left), std::abs(*right));
+}
+
 bool Marker::holds_letters_that_move(const Math& math) const {
     std::map<Letter, int> all;
     collect_letters(math, all);
@@ -82,11 +126,33 @@ bool Marker::holds_letters_that_move(const Math& math) const {
     });
 }
 
+/// m g/k = (1.2 · 9.81)/50 m: numbers put in. Not judged where they are not those that the page or the scene has.
+bool Marker::judge_calculation(MarkedLine& line, const Math& formula, double written) {
+    constexpr double rounding_on_the_way = 2e-3;
+    std::map<Letter, int> all;
+    collect_letters(formula, all);
+    for (const auto& [letter, dots] : all)
+        if (!letters_.name_of(letter)) return false;
+    const ex truth = truth_.value(claim_text(formula, as_written()).text);
+    const auto fits = [&](const GiNaC::exmap& values) {
+        const std::optional<double> exact = in_numbers(truth, values);
+        return exact && std::abs(*exact - written) <= rounding_on_the_way * std::abs(*exact);
+    };
+    const bool holds = fits(special_values_) || fits(own_values());
+    line.status = holds ? LineStatus::right : LineStatus::not_about_scene;
+    line.reason = holds ? say("to the digits that are written")
+                        : say("a value in numbers; lines are judged for all values");
+    return true;
+}
+
 /// Whether one side is a value in numbers; then it is held against the other with the values that the derivation
 /// states, else with those of the scene.
 bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
     constexpr double in_last_digit = 2, rounding_on_the_way = 2e-3;
     const Printed left = printed(lhs, letters_), right = printed(rhs, letters_);
+    const std::optional<double> by_left = value_of_numbers(lhs), by_right = value_of_numbers(rhs);
+    if (left.number == nullptr && right.number == nullptr && by_left.has_value() != by_right.has_value())
+        return judge_calculation(line, by_left ? rhs : lhs, by_left ? *by_left : *by_right);
     if ((left.number == nullptr) == (right.number == nullptr)) return false;
     const Printed& value = left.number != nullptr ? left : right;
     const Math& other = left.number != nullptr ? rhs : lhs;
@@ -107,20 +173,15 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value in numbers; lines are judged for all values");
     if (!is_known) return true;
-    const Mechanism& m = system_.mechanism();
-    const ex truth = m.z->expand(truth_.value(claim_text(other, as_written()).text));
-    GiNaC::exmap own;
-    for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent) own[p.symbol] = p.number();
+    const ex truth = truth_.value(claim_text(other, as_written()).text);
     const auto fits = [&](const GiNaC::exmap& values) -> std::optional<bool> {
-        const ex there = truth.subs(values, GiNaC::subs_options::no_pattern).evalf();
-        if (!GiNaC::is_a<GiNaC::numeric>(there) || !GiNaC::ex_to<GiNaC::numeric>(there).is_real())
-            return std::nullopt;
-        const double exact = GiNaC::ex_to<GiNaC::numeric>(there).to_double();
-        return std::abs(exact - written) <= std::max(in_last_digit * digit, rounding_on_the_way * std::abs(exact));
+        const std::optional<double> exact = in_numbers(truth, values);
+        if (!exact) return std::nullopt;
+        return std::abs(*exact - written) <=
+               std::max(in_last_digit * digit, rounding_on_the_way * std::abs(*exact));
     };
     const std::optional<bool> stated = fits(special_values_);
-    if (!stated && fits(own) != true) return true;
+    if (!stated && fits(own_values()) != true) return true;
     line.status = stated == false ? LineStatus::mistake : LineStatus::right;
     line.reason = stated == false ? say("it is another number with the values that stand above")
                   : value.is_unit_of_letters

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/language/say.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
@@ -72,8 +73,33 @@ void Marker::verify() {
         if (!own[0].likely || own[0].likely->kind == "unknown") continue;
         adopt(line, notes, std::move(own[0]));
     }
+    for (std::size_t k = 0; k < lines.size(); ++k) withhold_unexplained(k);
     if (held_.empty()) return;
     for (MarkedLine& line : lines) name_held(line);
+}
+
+/// A formula among words that fails, and that no small change makes right, is more often meant otherwise than wrong.
+/// Then nothing follows from it either.
+void Marker::withhold_unexplained(std::size_t k) {
+    MarkedLine& line = lines[k];
+    const bool is_from_line = line.status == LineStatus::follows && line.follows_from;
+    if (is_from_line && !is_judged_wrong(*line.follows_from)) {
+        line.reason = say("it follows from line {}, which is not judged", lines[*line.follows_from].line);
+        line.status = LineStatus::undecided;
+        line.checked = {};
+        line.follows_from.reset();
+        return;
+    }
+    const bool is_unexplained = !line.checked.likely || line.checked.likely->kind == "unknown";
+    const bool is_refuted = line.status == LineStatus::mistake && line.checked.verdict == Verdict::refuted;
+    const WrittenStatement& statement = written_.statements[line.statement];
+    if (!is_refuted || !is_unexplained || notes_[k].is_sure || statement.displayed) return;
+    if (asserts(statement.words) || speaks_of_quantity(notes_[k])) return;
+    line.status = LineStatus::undecided;
+    line.reason = say("as it was read it fails, and no small change makes it right: it may be meant otherwise");
+    line.checked = {};
+    line.term.clear();
+    line.right.clear();
 }
 
 bool Marker::speaks_of_quantity(const LineNotes& notes) const {

@@ -402,7 +402,9 @@ RestStates::Found RestStates::vanishes_near(const ex& residual, const About& giv
     const Eigen::Index n = coordinates_, columns = 3 * n + multipliers_;
     return weighed(
         about, is_said && !about.relations.empty(), [&](const State<double>& at) -> std::optional<Seen> {
-            const std::vector<double> here = values(nodes, at);
+            const std::vector<double> all = interpret_nodes(program_, at, nodes.needed);
+            std::vector<double> here;
+            for (const int node : nodes.roots) here.push_back(all[static_cast<std::size_t>(node)]);
             const std::optional<Near> there = near(at);
             if (!there || !are_finite(here)) return std::nullopt;
             if (std::any_of(here.begin() + columns + 1, here.end(),
@@ -410,8 +412,9 @@ RestStates::Found RestStates::vanishes_near(const ex& residual, const About& giv
                 return std::nullopt;
             const Eigen::Map<const Eigen::VectorXd> slopes(here.data(), columns);
             const double size = slopes.norm();
-            if (std::abs(here[static_cast<std::size_t>(columns)]) > alike * std::max(size, 1.0)) return Seen{};
             if (size < alike) return std::nullopt;  // energies have no part of first order
+            const double terms = size_of_terms(program_, nodes.roots[static_cast<std::size_t>(columns)], all);
+            if (std::abs(here[static_cast<std::size_t>(columns)]) > alike * std::max(size, terms)) return Seen{};
             const Eigen::Index moving = there->momenta_by_rates.rows();
             Matrix rows = Matrix::Zero(n + 3 * multipliers_ + moving, columns);
             rows.topRows(n) << there->mass, -there->by_rates, -there->by_places, -there->rows.transpose();

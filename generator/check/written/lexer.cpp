@@ -121,12 +121,17 @@ void WrittenLexer::number() {
             for (at_ = digits; has_digit(at_);) ++at_;
     }
     const std::string text(text_.substr(begin, at_ - begin));
-    // 9{,}81 as German has it; three digits after a comma may be thousands
-    if (text.find('.') == std::string::npos && text_.compare(at_, 3, "{,}") == 0 && has_digit(at_ + 3)) {
-        std::size_t end = at_ + 3;
+    // 9{,}81 and "= 6,54 cm" as German has it; three digits after a comma may be thousands, but not after a zero
+    const bool is_braced = text_.compare(at_, 3, "{,}") == 0;
+    const bool is_value = byte(at_) == ',' && !list_.empty() && list_.back().kind == Kind::relation;
+    const std::size_t fraction = at_ + (is_braced ? 3 : 1);
+    if (text.find('.') == std::string::npos && (is_braced || is_value) && has_digit(fraction)) {
+        std::size_t end = fraction;
         while (has_digit(end)) ++end;
-        if (end - at_ != 6) {
-            const std::string digits(text_.substr(at_ + 3, end - at_ - 3));
+        const bool is_list = is_value && (byte(end) == ',' || byte(end) == ')') && byte(end + 1) != ' ' &&
+                             byte(end + 1) != '\n' && byte(end + 1) != '\0';
+        if ((end - fraction != 3 || text == "0") && !is_list) {
+            const std::string digits(text_.substr(fraction, end - fraction));
             at_ = end;
             add(Kind::number, begin, text + "." + digits);
             return;

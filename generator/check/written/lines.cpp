@@ -354,7 +354,20 @@ std::vector<WrittenToken> DocumentReader::plain_tokens(std::size_t begin, std::s
     const auto is_clear_prose = [&](std::size_t i) {
         return is_letter(i) && source(i).size() > 1 && is_prose(source(i)) && !is_bound(i);
     };
+    const auto is_label = [&](std::size_t i) {  // "and from (2) 4/3 l φ'' + …", "with (17)  F = …"
+        return (joined.empty() || joined.back().kind == LineKind::text) && i + 3 < tokens.size() &&
+               tokens[i].kind == LineKind::open && tokens[i + 1].kind == LineKind::number &&
+               tokens[i + 2].kind == LineKind::close && !binds(tokens[i + 3]) &&
+               source(i + 1).find_first_not_of("0123456789.") == std::string_view::npos &&
+               tokens[i + 2].offset + tokens[i + 2].length < tokens[i + 3].offset;
+    };
     for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (is_label(i)) {
+            const std::size_t last = tokens[i + 2].offset + tokens[i + 2].length;
+            add_word(joined, std::string(slice(tokens[i].offset, last)), tokens[i].offset);
+            i += 2;
+            continue;
+        }
         bool is_word = is_clear_prose(i);
         const bool is_joined = !joined.empty() && joined.back().kind == LineKind::text;
         if (!is_word && is_letter(i) && !is_bound(i)) {

@@ -23,6 +23,10 @@ std::string words_behind(const Written& written, const WrittenStatement& stateme
 
 bool is_conditioned_behind(const Written& written, const WrittenStatement& statement) {
     const std::size_t end = statement.offset + statement.length;
+    std::string_view after = std::string_view(written.text).substr(std::min(end, written.text.size()));
+    after.remove_prefix(std::min(after.find_first_not_of("$ )\\"), after.size()));
+    for (const std::string_view condition : {"の場合", "のとき", "ならば", "时，", "时,"})
+        if (after.starts_with(condition)) return true;
     const std::size_t open =
         written.text.find('$', std::min(written.text.find_first_not_of("$ ", end), written.text.size()));
     if (open == std::string::npos || open > end + 24) return false;

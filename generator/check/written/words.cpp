@@ -90,7 +90,15 @@ bool is_conditional(std::string_view words) {
         std::find_if(std::begin(beginnings), std::end(beginnings),
                      [&](std::string_view beginning) { return sentence.starts_with(beginning); });
     const bool is_chinese = has_phrase(sentence, "当*时*|若*|如果*|假如*|假定*");
-    if (begun == std::end(beginnings) && !is_chinese) return false;
+    const bool is_supposed = has_phrase(
+        sentence, "would|until|wäre|hätte|würde|aurait|serait|jusqu'à|sería|serían|tendría|hasta|"
+                  "sarebbe|avrebbe|fino a|の場合*|のとき*|ならば*|直到*");
+    // "In the elastic mode the discs move against each other"
+    const bool is_of_mode =
+        has_phrase(sentence, "mode|eigenform|eigenschwingung|振型*|mode propre|modo normal|modo propio") &&
+        has_phrase(sentence, "in the|in this|in each|in der|in dieser|en el|dans le|在*");
+    if (is_of_mode) return true;
+    if (begun == std::end(beginnings) && !is_chinese && !is_supposed) return false;
     // "If we substitute this, we get" is no condition of the mechanism's
     static constexpr std::string_view operations =
         "substitut*|insert*|differentiat*|derivative|plug*|combine*|combining|eliminat*|multipl*|divid*|expand*|"
@@ -99,6 +107,19 @@ bool is_conditional(std::string_view words) {
         "verwend*|代入*|求导*|微分*|整理*|展开*|相加*|相减*|消去*|sustitu*|deriv*|dériv*|rempla*|"
         "multipli*|élimin*|simplifi*";
     return !has_phrase(sentence, operations) && !speaks_of_motion(sentence);
+}
+
+bool asserts(std::string_view words) {
+    return has_phrase(last_sentence(words),
+                      "we have|we get|we find|we obtain|gives|yields|is|are|keep|keeps|hence|thus|therefore|it follows|"
+                      "gilt|ist|folgt|somit|also|erhalten wir|ergibt|on a|on trouve|on obtient|donc|il vient|tenemos|"
+                      "resulta|se obtiene|por tanto|es|si ha|quindi|得*|有|为*|所以*|故*|因此*");
+}
+
+bool speaks_of_other_system(std::string_view words) {
+    return has_phrase(last_sentence(words),
+                      "analogous|analogue|kepler problem|kepler-problem|keplerproblem|problème de kepler|problema de "
+                      "kepler|开普勒问题*|in contrast to|unlike|im gegensatz zu*|contrairement à|a diferencia de");
 }
 
 bool speaks_of_effective_potential(std::string_view words) {

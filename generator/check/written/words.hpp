@@ -29,6 +29,12 @@ bool states_condition(std::string_view words);
 /// describe. Not so where they tell what is done with formulas, as "if we differentiate".
 bool is_conditional(std::string_view words);
 
+/// "We have", "hence": what follows is said to be so, and no condition.
+bool asserts(std::string_view words);
+
+/// "In the Kepler problem the analogous thing is": what follows is about another system.
+bool speaks_of_other_system(std::string_view words);
+
 /// "The effective potential is": what it names is not the potential of the forces.
 bool speaks_of_effective_potential(std::string_view words);
 

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Functions at a place: U''(r_0), V''(0), and lines of one place that the sentence names.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "base/language/say.hpp"
+#include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+bool holds_letter(const Math& math, const char* base) {
+    return (math.kind == Kind::letter && math.letter.base == base) ||
+           std::any_of(math.args.begin(), math.args.end(),
+                       [&](const MathPtr& arg) { return holds_letter(*arg, base); });
+}
+
+bool is_two(const Math& math) {
+    return math.kind == Kind::number && math.text == "2";
+}
+
+/// V''(0), at a number.
+bool holds_value_at_number(const Math& math) {
+    return (math.kind == Kind::applied && math.args.size() == 1 && math.args[0]->kind == Kind::number) ||
+           std::any_of(math.args.begin(), math.args.end(),
+                       [](const MathPtr& arg) { return holds_value_at_number(*arg); });
+}
+
+}  // namespace
+
+bool holds_whole_turn(const Math& math) {
+    const bool is_product = math.kind == Kind::product || math.kind == Kind::quotient;
+    if (!is_product) return false;
+    if (math.kind == Kind::quotient) return holds_whole_turn(*math.args[0]);
+    const auto is_pi = [](const MathPtr& arg) { return arg->kind == Kind::letter && holds_letter(*arg, "pi"); };
+    return std::any_of(math.args.begin(), math.args.end(), is_pi) &&
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_two(*arg); });
+}
+
+/// U''(r_0) as ∂²U/∂r², and U(r_0) as U: what they are at the state. Unchanged where the place is none of a
+/// coordinate.
+MathPtr Marker::with_slopes(const MathPtr& math) const {
+    const auto changed = [&] {
+        Math copy = *math;
+        for (MathPtr& arg : copy.args) arg = with_slopes(arg);
+        return std::make_shared<Math>(std::move(copy));
+    };
+    if (math->kind != Kind::applied || math->args.size() != 1) return changed();
+    const Math& place = *math->args[0];
+    const auto name = letters_.name_of(math->letter);
+    if (!name || (letters_.is_of_scene(*name) && letters_.moves(*name))) return changed();
+    std::string coordinate;
+    if (place.kind == Kind::letter && state_letters_.contains(place.letter))
+        coordinate = coordinate_of_value(place.letter).get_name();
+    else if (place.kind == Kind::number && letters_.coordinates().size() == 1)
+        coordinate = letters_.coordinates()[0];
+    const auto letter = std::find_if(seen_.begin(), seen_.end(), [&](const Letter& one) {
+        return letters_.name_of(one) == coordinate && !state_letters_.contains(one);
+    });
+    if (coordinate.empty() || letter == seen_.end()) return changed();
+    Math of = *math, by = place;
+    of.kind = by.kind = Kind::letter;
+    of.dots = by.dots = 0;
+    of.args.clear();
+    by.args.clear();
+    by.letter = *letter;
+    if (math->dots == 0) return std::make_shared<Math>(std::move(of));
+    Math slope{.kind = Kind::partial};
+    slope.text = "d";
+    slope.offset = math->offset, slope.length = math->length;
+    slope.args.push_back(std::make_shared<Math>(std::move(of)));
+    slope.args.insert(slope.args.end(), static_cast<std::size_t>(math->dots), std::make_shared<Math>(by));
+    return std::make_shared<Math>(std::move(slope));
+}
+
+namespace {
+
+/// What is held with a function of one coordinate for each of its primes.
+struct Slopes {
+    const std::string& text;                                         ///< of the derivation
+    std::function<std::optional<Letter>(const Letter&)> coordinate;  ///< of a function of one coordinate alone
+
+    bool has_primes(const Math& math) const {
+        const std::string source = text.substr(std::min(math.offset, text.size()), math.length + 3);
+        return source.find("dot") == std::string::npos &&
+               (source.find('\'') != std::string::npos || source.find("prime") != std::string::npos ||
+                source.find("′") != std::string::npos || source.find("″") != std::string::npos);
+    }
+
+    MathPtr of(const MathPtr& math) const {
+        const bool may_be = math->kind == Math::Kind::letter && math->dots > 0 && has_primes(*math);
+        const auto by = may_be ? coordinate(math->letter) : std::nullopt;
+        if (by) {
+            Math letter = *math, place = *math, slope{.kind = Math::Kind::partial};
+            letter.dots = place.dots = 0;
+            place.letter = *by;
+            slope.text = "d";
+            slope.offset = math->offset, slope.length = math->length;
+            slope.args.push_back(std::make_shared<Math>(std::move(letter)));
+            slope.args.insert(slope.args.end(), static_cast<std::size_t>(math->dots), std::make_shared<Math>(place));
+            return std::make_shared<Math>(std::move(slope));
+        }
+        Math copy = *math;
+        bool is_other = false;
+        for (MathPtr& arg : copy.args) {
+            const MathPtr changed = of(arg);
+            is_other = is_other || changed != arg;
+            arg = changed;
+        }
+        return is_other ? std::make_shared<Math>(std::move(copy)) : math;
+    }
+};
+
+}  // namespace
+
+/// V' = m g a sin φ, where V is of one coordinate: V' is dV/dφ if that is what makes the line right.
+bool Marker::holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    const auto coordinate = [&](const Letter& letter) -> std::optional<Letter> {
+        const auto name = letters_.name_of(letter);
+        if (!name || letters_.is_of_scene(*name) || quantity_of(letter) == MechanicalQuantity::kinetic) return {};
+        const ex value = truth_.value(*name);
+        std::optional<Letter> by;
+        for (const GiNaC::symbol& q : m.q) {
+            if (!m.z->depends(value, {q})) continue;
+            const auto found = std::find_if(seen_.begin(), seen_.end(), [&](const Letter& one) {
+                return letters_.name_of(one) == q.get_name() && !state_letters_.contains(one);
+            });
+            if (by || found == seen_.end()) return {};
+            by = *found;
+        }
+        return by;
+    };
+    const Slopes slopes{written_.text, coordinate};
+    const MathPtr whole = std::make_shared<Math>(lhs), other = std::make_shared<Math>(rhs);
+    const MathPtr left = slopes.of(whole), right = slopes.of(other);
+    if (left == whole && right == other) return false;
+    const Sides sides = sides_of(*left, *right);
+    const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    const bool is_of_rest = is_rest_assumed_ || says_rest() || rhs.kind == Kind::number;
+    if (system_.rows().holds(row) != true && !(is_of_rest && is_of_rest_unsaid(line, sides))) return false;
+    line.status = line.status == LineStatus::not_about_scene ? line.status : LineStatus::right;
+    if (line.status == LineStatus::right)
+        line.reason = say("a prime is read as the derivative by the coordinate");
+    line.claim = sides.left.text + " = " + sides.right.text;
+    line.follows_from.reset();
+    notes_.back().claim = {};
+    return true;
+}
+
+/// V''(0)/I = 3 k/(m l²) − …: held at that place, at rest. Otherwise it is told that it is a value at one moment.
+bool Marker::is_at_number(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    if (!holds_value_at_number(lhs) && !holds_value_at_number(rhs)) return false;
+    const MathPtr left = with_slopes(std::make_shared<Math>(lhs)), right = with_slopes(std::make_shared<Math>(rhs));
+    if (holds_value_at_number(*left) || holds_value_at_number(*right)) return false;
+    const Math* number = nullptr;
+    const std::function<void(const Math&)> find = [&](const Math& math) {
+        if (math.kind == Kind::applied && math.args.size() == 1 && math.args[0]->kind == Kind::number)
+            number = math.args[0].get();
+        for (const MathPtr& arg : math.args) find(*arg);
+    };
+    find(lhs);
+    find(rhs);
+    const Mechanism& m = system_.mechanism();
+    const Sides sides = sides_of(*left, *right);
+    GiNaC::exmap place{{m.q[0], truth_.value(number->text)}, {m.qdot[0], 0}};
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    if (m.z->depends(residual, m.qddot)) return false;
+    if (!is_identically_zero(m.z->name(substitute(*m.z, {residual}, place)[0]), m)) return false;
+    line.status = LineStatus::right;
+    line.reason = say("where {} = {}", m.q[0].get_name(), number->text);
+    line.claim = sides.left.text + " = " + sides.right.text;
+    return true;
+}
+
+/// "In the stretched position φ = 0 …": the place of which the sentence goes on to speak.
+void Marker::note_place(const Math& lhs, const Math& rhs) {
+    if (statement_->displayed || lhs.kind != Kind::letter || lhs.dots > 0) return;
+    const auto name = letters_.name_of(lhs.letter);
+    const Mechanism& m = system_.mechanism();
+    for (const GiNaC::symbol& q : m.q) {
+        if (!name || q.get_name() != *name) continue;
+        const ClaimText value = claim_text(rhs, as_written());
+        const ex place = m.z->expand(truth_.value(value.text));
+        if (is_of_parameters(place)) stated_place_[q] = place;
+    }
+}
+
+/// Whether the line follows from the equations at the place of the sentence.
+bool Marker::holds_at_stated_place(const ex& residual) {
+    if (stated_place_.empty()) return false;
+    const Mechanism& m = system_.mechanism();
+    const ex there = substitute(*m.z, {residual}, stated_place_)[0];
+    return is_identically_zero(m.z->name(there), m) || follows_with(residual, stated_place_);
+}
+
+}  // namespace alembert
