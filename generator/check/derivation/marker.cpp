@@ -78,8 +78,18 @@ void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
     }
 }
 
-/// U = p_φ²/(2 m l² sin²θ) + … is the author's wherever it stands.
+/// U = p_φ²/(2 m l² sin²θ) + … is the author's wherever it stands, and so with a letter of his own for the momentum.
 void Marker::find_effective_potentials() {
+    std::set<Letter> momenta;
+    for (const WrittenStatement& statement : written_.statements)
+        for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
+            for (const bool turned : {false, true}) {
+                const Lone own = lone_letter(*statement.sides[turned ? k + 1 : k]);
+                const bool may_be = own.letter != nullptr && own.power == 1 && !quantity_of(own.letter->letter) &&
+                                    holds_rates(*statement.sides[turned ? k : k + 1]);
+                if (may_be && !letters_.is_of_scene(letters_.name_of(own.letter->letter).value_or("")))
+                    momenta.insert(own.letter->letter);
+            }
     for (const WrittenStatement& statement : written_.statements)
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k) {
             const Lone own = lone_letter(*statement.sides[k]);
@@ -88,8 +98,8 @@ void Marker::find_effective_potentials() {
             if (!may_be) continue;
             std::map<Letter, int> all;
             collect_letters(*statement.sides[k + 1], all);
-            const bool has_momentum = std::any_of(all.begin(), all.end(), [](const auto& item) {
-                return item.first.base == "p" && !item.first.index.empty();
+            const bool has_momentum = std::any_of(all.begin(), all.end(), [&](const auto& item) {
+                return (item.first.base == "p" && !item.first.index.empty()) || momenta.contains(item.first);
             });
             if (has_momentum) letters_.leave_to_author(own.letter->letter);
         }
@@ -284,6 +294,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         if (is_frequency(line, lhs, rhs, 1)) return;
         if (lhs.letter == Letter{.base = "T"} && holds_whole_turn(rhs)) return define(line, lhs, rhs, 1);
     }
+    if (is_frequency_equation(line, lhs, rhs)) return;
     const Lone lone = lone_letter(lhs);
     const bool is_again = lone.letter != nullptr && frequency_letters_.contains(lone.letter->letter) &&
                           is_frequency_again(line, *lone.letter, rhs, lone.power);  // of another state or case
@@ -406,7 +417,11 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     if (!has_mistake) return note_reduced(sides, row);  // nothing stands above from which it could not follow
     const bool founded = is_new_law_ || is_identity ? is_new_law_ || !wrong || rows.is_identity(own) == true
                                                     : own_.founds(own) || own_.founds(row);
-    if (founded) {
+    // T and L are what they are, wherever the mistake was, if no letter in them is wrong
+    const Lone lone = lone_letter(*statement_->sides.front());
+    const bool is_energy = lone.letter != nullptr && quantity_of(lone.letter->letter) && is_identity &&
+                           (!own_.wrong_in(sides.own_right.names) || repeats_law(*sides.rhs));
+    if (founded || is_energy) {
         note_reduced(sides, row);
         return;
     }

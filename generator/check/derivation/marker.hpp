@@ -124,6 +124,8 @@ private:
     bool is_reduced_momentum(MarkedLine& line, const Sides& sides);
     bool deviates_from_motion() const;
     bool holds_near_some_rest(MarkedLine& line, const GiNaC::ex& residual);
+    const Letter* letter_of_frequency(const Math& lhs, const Math& rhs, std::map<Letter, int>& all) const;
+    bool is_frequency_equation(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_approximation(MarkedLine& line, const Sides& sides);
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool states_second_order(const Sides& sides, const GiNaC::ex& residual, const BaseState& base);
@@ -143,6 +145,7 @@ private:
     MathPtr with_slopes(const MathPtr& math) const;
     bool is_at_number(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool is_condition_of_parameters(const Sides& sides);
     bool is_of_rest_unsaid(MarkedLine& line, const Sides& sides);
     bool holds_to_digits(const Sides& sides);
     bool holds_at_stated_place(const GiNaC::ex& residual);
@@ -198,6 +201,7 @@ private:
     bool is_on_branch(MarkedLine& line, const Sides& sides);
     bool is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned);
     void take_in_special_case(const Math& lhs, const Math& rhs);
+    void take_in_relation(const Math& lhs, const Math& rhs);
     void stop_input(const GiNaC::ex& name, const GiNaC::ex& value);
     void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);

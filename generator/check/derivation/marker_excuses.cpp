@@ -111,6 +111,10 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     if (relation_ == Relation::approximately && has_quantities(sides_of(lhs, rhs)) &&
         !system_.equations().A.empty())
         return say("an approximation of energies on constraints is not judged");
+    for (const Mechanism::Input& input : system_.mechanism().inputs)
+        for (const GiNaC::symbol& derivative : input.derivative)
+            if (special_values_.contains(derivative))
+                return say("it may hold for the inputs that stand above; lines are judged for those of the scene");
     // T and V are what they are in every state, but not for every value of the parameters.
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value() &&
                            !letters_.is_of_scene(letters_.name_of(lhs.letter).value_or(""));
@@ -156,6 +160,13 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     const Sides sides = sides_of(lhs, rhs);
     if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text)))
         return settle_in_special_case(line);
+    if (!statement_->displayed && is_condition_of_parameters(sides)) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("a condition on parameters; lines are judged for all their values");
+        line.follows_from.reset();
+        notes_.back().claim = {};
+        return;
+    }
     if (line.status != LineStatus::mistake) return;
     if (holds_to_digits(sides)) {
         line.status = LineStatus::right;
@@ -183,11 +194,24 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     line.claim.clear();
 }
 
+/// k l_0 = 3 m g among words: of parameters of the scene alone.
+bool Marker::is_condition_of_parameters(const Sides& sides) {
+    const auto is_parameter = [&](const std::string& name) {
+        return letters_.is_of_scene(name) && !letters_.moves(name) && !letters_.is_function(name) &&
+               !is_multiplier(name);
+    };
+    const auto are = [&](const ClaimText& side) {
+        return std::all_of(side.names.begin(), side.names.end(), is_parameter);
+    };
+    return are(sides.left) && are(sides.right) && !(sides.left.names.empty() && sides.right.names.empty());
+}
+
 /// m g l sin φ = 0 without a word of rest: what holds at rest, and fails in motion for want of accelerations alone.
 bool Marker::is_of_rest_unsaid(MarkedLine& line, const Sides& sides) {
     const Mechanism& m = system_.mechanism();
     if (displacements_ != nullptr || has_quantities(sides)) return false;
-    if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs) || speaks_of_motion(said_)) return false;
+    if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs) || speaks_of_motion(statement_->words))
+        return false;
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     if (!m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
         return false;

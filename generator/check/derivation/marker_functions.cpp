@@ -143,9 +143,10 @@ bool Marker::holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rh
     const MathPtr left = slopes.of(whole), right = slopes.of(other);
     if (left == whole && right == other) return false;
     const Sides sides = sides_of(*left, *right);
-    const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    const bool holds = system_.rows().holds(system_.rows().row(residual)) == true || holds_at_stated_place(residual);
     const bool is_of_rest = is_rest_assumed_ || says_rest() || rhs.kind == Kind::number;
-    if (system_.rows().holds(row) != true && !(is_of_rest && is_of_rest_unsaid(line, sides))) return false;
+    if (!holds && !(is_of_rest && is_of_rest_unsaid(line, sides))) return false;
     line.status = line.status == LineStatus::not_about_scene ? line.status : LineStatus::right;
     if (line.status == LineStatus::right)
         line.reason = say("a prime is read as the derivative by the coordinate");

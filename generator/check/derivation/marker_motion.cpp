@@ -140,7 +140,7 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
     const bool is_left = is_parameter(left.letter);
     if (!is_left && !is_parameter(right.letter)) {
         under_condition_ = lines_of_condition;
-        return;
+        return take_in_relation(lhs, rhs);
     }
     try {
         const Lone& lone = is_left ? left : right;
@@ -154,6 +154,23 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
     } catch (const NoMeaning&) {
         under_condition_ = lines_of_condition;
     }
+}
+
+/// k_1 a = k_2 b: one of the parameters by the others.
+void Marker::take_in_relation(const Math& lhs, const Math& rhs) try {
+    const Mechanism& m = system_.mechanism();
+    const ex residual = m.z->expand(truth_.value(claim_text(lhs, as_written()).text) -
+                                    truth_.value(claim_text(rhs, as_written()).text)).expand();
+    if (!is_of_parameters(residual)) return;
+    for (const Mechanism::Parameter& p : m.parameters) {
+        if (!p.independent || !residual.is_polynomial(p.symbol) || residual.degree(p.symbol) != 1) continue;
+        const ex slope = residual.coeff(p.symbol, 1);
+        if (slope.is_zero()) continue;
+        set_special_value(p.symbol, (-residual.coeff(p.symbol, 0) / slope).normal());
+        is_case_settled_ = false;
+        return;
+    }
+} catch (const NoMeaning&) {  // a letter that nothing gives
 }
 
 /// An input that is constant, or whose rate is, has no higher derivatives: of h' = 0 also h'' = 0.

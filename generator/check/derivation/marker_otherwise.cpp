@@ -147,7 +147,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) {
             if (letters_.moves(name)) return !is_input(name);
             const ex value = truth_.value(name);  // λ, or ω for φ'
-            return m.z->depends(value, system_.equations().lambda) || m.z->depends(value, m.qdot);
+            return m.z->depends(value, system_.equations().lambda) || m.z->depends(value, m.qdot) ||
+                   (m.z->depends(value, m.q) && !has_quantities(sides));
         });
     };
     if (!is_aside() && !moves(sides.left) && !moves(sides.right)) return false;

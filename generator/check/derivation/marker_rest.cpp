@@ -206,14 +206,15 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     const bool is_of_turn = std::any_of(all.begin(), all.end(), [&](const auto& item) {
         return state_letters_.contains(item.first) && of_motion.contains(item.first.index);
     });
-    const bool is_said = !from_rest_ && !is_of_turn && (says_rest() || is_named || steady_lines_ > 0);
+    const bool is_said = !from_rest_ && !is_of_turn && relation_ != Relation::approximately && (says_rest() || is_named || steady_lines_ > 0);
     const bool is_case = speaks_of_special_case(statement_->words);
     if (!statement_->displayed && is_case) {  // "if ω = Ω", "Resonance ω_1 = 2 ω_2"
         under_condition_ = lines_of_condition;
         return false;
     }
     const Lone lone = lone_letter(lhs);
-    if (is_rounded_value(lhs) || is_rounded_value(rhs)) return false;
+    if (is_rounded_value(lhs) || is_rounded_value(rhs) || value_of_numbers(lhs) || value_of_numbers(rhs))
+        return false;
     if (lone.letter != nullptr && lone.letter->letter.base == "omega" &&
         !state_letters_.contains(lone.letter->letter) &&
         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&

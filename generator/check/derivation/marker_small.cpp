@@ -273,6 +273,65 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
     return false;
 }
 
+/// ω of a secular equation, which nothing has defined or which is a frequency: all else in it is constant.
+const Letter* Marker::letter_of_frequency(const Math& lhs, const Math& rhs, std::map<Letter, int>& all) const {
+    static const std::set<std::string> bases{"omega", "Omega", "w", "p", "lambda", "s", "nu", "mu", "r", "z", "x"};
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    const Letter* result = nullptr;
+    for (const auto& [letter, dots] : all) {
+        const auto name = letters_.name_of(letter);
+        if (dots > 0) return nullptr;
+        const auto known = name ? known_.find(*name) : known_.end();
+        const bool is_constant = name && !letters_.moves(*name) && !is_multiplier(*name) &&
+                                 (letters_.is_of_scene(*name) || (known != known_.end() && is_of_parameters(known->second)));
+        if (is_constant && !frequency_letters_.contains(letter)) continue;
+        if (result != nullptr || !bases.contains(letter.base) || (name && letters_.is_of_scene(*name)))
+            return nullptr;
+        result = &letter;
+    }
+    return result;
+}
+
+/// (2 k − 2 J ω²)(k − J ω²) − k² = 0: right if its roots are the frequencies about a state of rest.
+bool Marker::is_frequency_equation(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    std::map<Letter, int> all, beside;
+    const Letter* letter = letter_of_frequency(lhs, rhs, all);
+    if (letter == nullptr || all.size() < 2) return false;
+    for (const auto& [side, other] : {std::pair{&lhs, &rhs}, {&rhs, &lhs}}) {
+        beside.clear();
+        collect_letters(*other, beside);
+        if (lone_letter(*side).letter != nullptr && !beside.contains(*letter)) return false;  // ω² = k/m
+    }
+    const Letters before = letters_;
+    const std::string name = letters_.free_name("frequency");
+    const GiNaC::symbol x = system_.held(name);
+    letters_.bind(*letter, name);
+    truth_.know(name, x);
+    const Sides sides = sides_of(lhs, rhs);
+    const ex residual = system_.mechanism()
+                            .z->expand(truth_.value(sides.left.text) - truth_.value(sides.right.text))
+                            .normal()
+                            .numer()
+                            .expand();
+    letters_ = before;
+    if (!residual.is_polynomial(x) || residual.degree(x) < 2) return false;
+    std::vector<ex> coefficients;
+    for (int k = 0; k <= residual.degree(x); ++k) coefficients.push_back(residual.coeff(x, k));
+    std::string reason;
+    const Found found = found_at_rest(
+        [&](RestStates& states) { return states.is_characteristic(coefficients, {}); }, true, reason);
+    const bool holds = found == Found::everywhere || found == Found::on_branch;
+    if (!holds && (found != Found::nowhere || !(speaks_of_frequency_ || speaks_of_small_))) return false;
+    line.status = holds ? LineStatus::right_near : LineStatus::mistake;
+    line.reason = holds ? say("its roots are the frequencies of small vibrations about {}",
+                              say("a state of rest found in numbers"))
+                        : say("its roots are no frequencies of small vibrations");
+    line.claim = sides.left.text + " = " + sides.right.text;
+    notes_.back().is_sure = true;
+    return true;
+}
+
 namespace {
 
 /// Coordinates of which a sine, a cosine or the like is taken.

@@ -100,7 +100,14 @@ std::optional<double> Marker::in_numbers(const ex& value, const GiNaC::exmap& va
 std::optional<double> Marker::value_of_numbers(const Math& side) {
     std::map<Letter, int> all;
     collect_letters(side, all);
-    if (!all.empty() || !holds_decimals(side)) return std::nullopt;
+    if (!holds_decimals(side)) return std::nullopt;
+    const bool may_have_unit = side.kind == Kind::product && side.args.size() == 2 &&
+                               side.args[1]->kind == Kind::letter && side.args[1]->letter.index.empty() && all.size() == 1;
+    if (may_have_unit && meaning_of_unit(side.args[1]->letter.base)) {  // (1.2 · 9.81)/50 m, whatever m is
+        const std::optional<double> number = value_of_numbers(*side.args[0]);
+        return number ? std::optional(*number * meaning_of_unit(side.args[1]->letter.base)->factor) : std::nullopt;
+    }
+    if (!all.empty()) return std::nullopt;
     return in_numbers(truth_.value(claim_text(side, as_written()).text), {});
 }
 

@@ -450,6 +450,39 @@ bool RestStates::solves(const Near& near, double square, bool resisting) {
     return here < alike && here < 1e-3 * std::min(smallest(1.4 * square + 0.01), smallest(0.7 * square - 0.01));
 }
 
+RestStates::Found RestStates::is_characteristic(const std::vector<ex>& coefficients, const About& about) {
+    using Complex = std::complex<double>;
+    constexpr double rounding = 1e-6;  // of eigenvalues in doubles, double ones too
+    if (!is_usable_) return Found::unknown;
+    const Nodes nodes = lowered(coefficients, about.places);
+    const auto test = [&](const State<double>& at) -> std::optional<Seen> {
+        const std::vector<double> here = values(nodes, at);
+        const std::optional<Near> there = near(at);
+        if (!there || !are_finite(here)) return std::nullopt;
+        const Eigen::VectorXcd all = eigenvalues(*there);
+        const double largest = all.cwiseAbs().maxCoeff();
+        if (largest < alike) return std::nullopt;
+        const auto solves = [&](Complex x) {
+            Complex sum = 0, power = 1;
+            double size = 0;
+            for (const double c : here) {
+                sum += c * power;
+                size += std::abs(c * power);
+                power *= x;
+            }
+            return std::abs(sum) <= rounding * size;
+        };
+        const auto all_solve = [&](auto&& of) {
+            return std::all_of(all.begin(), all.end(), [&](const Complex& s) {
+                return std::abs(s) < std::sqrt(alike) * largest || solves(of(s));
+            });
+        };
+        return Seen{.holds = all_solve([](Complex s) { return std::sqrt(-s * s); }) ||
+                             all_solve([](Complex s) { return -s * s; }) || all_solve([](Complex s) { return s; })};
+    };
+    return weighed(about, false, test);
+}
+
 RestStates::Found RestStates::is_frequency(const ex& square, const About& about) {
     if (!is_usable_ || system_.mechanism().z->tree_size(square) > longest) return Found::unknown;
     const Nodes nodes = lowered({square}, about.places);

@@ -96,7 +96,7 @@ bool is_conditional(std::string_view words) {
     // "In the elastic mode the discs move against each other"
     const bool is_of_mode =
         has_phrase(sentence, "mode|eigenform|eigenschwingung|振型*|mode propre|modo normal|modo propio") &&
-        has_phrase(sentence, "in the|in this|in each|in der|in dieser|en el|dans le|在*");
+        has_phrase(sentence, "in the|in this|in each|in der|in dieser|en el|en este|dans le|dans ce|在*");
     if (is_of_mode) return true;
     if (begun == std::end(beginnings) && !is_chinese && !is_supposed) return false;
     // "If we substitute this, we get" is no condition of the mechanism's
@@ -112,7 +112,7 @@ bool is_conditional(std::string_view words) {
 bool asserts(std::string_view words) {
     return has_phrase(last_sentence(words),
                       "we have|we get|we find|we obtain|gives|yields|is|are|keep|keeps|hence|thus|therefore|it follows|"
-                      "gilt|ist|folgt|somit|also|erhalten wir|ergibt|on a|on trouve|on obtient|donc|il vient|tenemos|"
+                      "gilt|ist|folgt|somit|erhalten wir|ergibt|on a|on trouve|on obtient|donc|il vient|tenemos|"
                       "resulta|se obtiene|por tanto|es|si ha|quindi|得*|有|为*|所以*|故*|因此*");
 }
 
@@ -283,7 +283,7 @@ bool is_of_rest(const std::string& sentence) {
     return !is_of_start && !is_of_place &&
            has_phrase(
                sentence,
-               "at rest|rests|equilibri*|equil|eqm|eq. pos*|rest "
+               "at rest|rests|position of rest|positions of rest|equilibri*|equil|eqm|eq. pos*|rest "
                "position*|gleichgewicht|gleichgewichte|ggl|ruhelage|"
                "posición de equilibrio|en reposo|au repos|position d'équilibre|accelerations zero|principle of "
                "virtual work|静止*|平衡*|虚位移原理*|"
