@@ -40,7 +40,8 @@ bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool 
 /// coordinates `small` and their rates deviate little from the base state, and the others do as they do. Nothing
 /// where the right side is no polynomial in the deviations.
 std::optional<bool> agree_to_written_order(const GiNaC::ex& left, const GiNaC::ex& right, const BaseState& base,
-                                           const std::vector<GiNaC::symbol>& small, const DerivedSystem& system);
+                                           const std::vector<GiNaC::symbol>& small, const DerivedSystem& system,
+                                           bool up_to_constant = false);
 
 /// The part of first order in the deviations; nothing for what is too long.
 std::optional<GiNaC::ex> linear_part(const GiNaC::ex& residual, const BaseState& base,

@@ -280,7 +280,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         at_rest_of_rates_ = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
         return;
     }
-    if (judge_virtual(line, lhs, rhs)) return;
+    if (judge_virtual(line, lhs, rhs) || is_frequency_equation(line, lhs, rhs)) return;
     if (is_condition_on_potential(line, lhs, rhs)) return;
     const Math& first = *statement_->sides.front();
     const bool ends_chain = &lhs != &first && rhs.kind == Kind::number && rhs.text == "0";
@@ -294,7 +294,6 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         if (is_frequency(line, lhs, rhs, 1)) return;
         if (lhs.letter == Letter{.base = "T"} && holds_whole_turn(rhs)) return define(line, lhs, rhs, 1);
     }
-    if (is_frequency_equation(line, lhs, rhs)) return;
     const Lone lone = lone_letter(lhs);
     const bool is_again = lone.letter != nullptr && frequency_letters_.contains(lone.letter->letter) &&
                           is_frequency_again(line, *lone.letter, rhs, lone.power);  // of another state or case

@@ -205,6 +205,7 @@ private:
     void stop_input(const GiNaC::ex& name, const GiNaC::ex& value);
     void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);
+    bool has_data_alone() const;
     bool is_case_fresh() const;
     bool follows_with(const GiNaC::ex& residual, const GiNaC::exmap& values);
     void settle_in_special_case(MarkedLine& line);
@@ -322,6 +323,7 @@ private:
     bool begins_case_ = true;        ///< whether a sentence or an item of a list has begun since the last of them
     GiNaC::exmap case_;              ///< those of the last sentence or item of a list
     GiNaC::exmap special_values_;    ///< of parameters, as the derivation states them
+    bool is_taken_there_ = false;    ///< U''(r) for U''(r_0): its coordinates are those of the state
     std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0
     GiNaC::exmap stated_place_;    ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
     GiNaC::exmap used_values_;       ///< those of them for which the last line followed

@@ -158,8 +158,11 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     if (line.status != LineStatus::mistake && line.status != LineStatus::follows) return;
     if (holds_with_slopes(line, lhs, rhs)) return;
     const Sides sides = sides_of(lhs, rhs);
-    if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text)))
-        return settle_in_special_case(line);
+    if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
+        const LineStatus before = line.status;
+        settle_in_special_case(line);
+        if (line.status != before) return;
+    }
     if (!statement_->displayed && is_condition_of_parameters(sides)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("a condition on parameters; lines are judged for all their values");

@@ -112,7 +112,10 @@ std::vector<CheckedClaim> Marker::checked_alone(const LineClaim& claim) const {
 bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, const Letter& letter, bool turned) {
     const Mechanism& m = system_.mechanism();
     const ex value = truth_.value(text.text);
-    const bool is_said = turned ? speaks_of_conservation(said_) : speaks_of_conservation(words_after_);
+    static const std::set<std::string> of_integrals{"h", "H", "J", "E", "C", "K", "I"};
+    const bool is_named = statement_->displayed && of_integrals.contains(letter.base) &&
+                          says_conserved_is(statement_->words);  // "What is conserved is h = …"
+    const bool is_said = turned ? speaks_of_conservation(said_) : is_named || speaks_of_conservation(words_after_);
     const bool is_integral = turned && statement_->displayed && is_letter_of_constant(letter);
     if (!(is_said || is_integral) || !m.z->depends(value, m.qdot)) return false;
     if (m.z->depends(value, m.qddot)) return false;
@@ -243,16 +246,20 @@ bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
     return false;
 }
 
+/// Whether all values are numbers other than zero, which hold for the page.
+bool Marker::has_data_alone() const {
+    return std::all_of(special_values_.begin(), special_values_.end(), [](const auto& item) {
+        return GiNaC::is_a<GiNaC::numeric>(item.second) && !item.second.is_zero();
+    });
+}
+
 /// Whether the values were stated for this line: in its sentence, or by the line just before it, with words that
 /// only go on between them. Numbers that were given, k = 40 N/m, hold for the page.
 bool Marker::is_case_fresh() const {
-    const bool has_data_alone = std::all_of(special_values_.begin(), special_values_.end(), [](const auto& item) {
-        return GiNaC::is_a<GiNaC::numeric>(item.second) && !item.second.is_zero();
-    });
     constexpr std::size_t longest = 24;  // "and", "or, for the second,"
     const bool goes_on = statement_->words.size() < longest && !ends_sentence(statement_->words) &&
                          !begins_sentence(statement_->words);
-    return has_data_alone || lines_of_case_ == 0 || (lines_of_case_ < 3 && goes_on);
+    return has_data_alone() || lines_of_case_ == 0 || (lines_of_case_ < 3 && goes_on);
 }
 
 /// "c = 0, m1 = m2".
@@ -270,6 +277,11 @@ std::string Marker::told_values(const GiNaC::exmap& values) const {
 /// Right for these values; not judged where a sentence has ended since they were stated.
 void Marker::settle_in_special_case(MarkedLine& line) {
     const bool is_over = is_case_settled_ || !is_case_fresh();
+    const bool is_of_other_part =
+        statement_->words.find("**") != std::string::npos || statement_->words.find('#') != std::string::npos;
+    const bool leaves_out = std::any_of(used_values_.begin(), used_values_.end(),
+                                        [](const auto& item) { return item.second.is_zero(); });
+    if (is_over && is_of_other_part && leaves_out) return;  // what fails there is a mistake
     line.status = is_over ? LineStatus::not_about_scene : LineStatus::right;
     line.reason =
         is_over

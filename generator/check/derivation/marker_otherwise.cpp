@@ -148,7 +148,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
             if (letters_.moves(name)) return !is_input(name);
             const ex value = truth_.value(name);  // λ, or ω for φ'
             return m.z->depends(value, system_.equations().lambda) || m.z->depends(value, m.qdot) ||
-                   (m.z->depends(value, m.q) && !has_quantities(sides));
+                   (m.z->depends(value, m.q) && is_number(*sides.rhs) && !has_quantities(sides));
         });
     };
     if (!is_aside() && !moves(sides.left) && !moves(sides.right)) return false;

@@ -195,7 +195,10 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         const MathPtr left = with_slopes(std::make_shared<Math>(lhs)),
                       right = with_slopes(std::make_shared<Math>(rhs));
         if (holds_function_of_state(*left) || holds_function_of_state(*right)) return false;
-        return is_of_state_letter(line, *left, *right);
+        is_taken_there_ = true;
+        const bool is_decided = is_of_state_letter(line, *left, *right);
+        is_taken_there_ = false;
+        return is_decided;
     }
     static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
     const bool is_named = std::all_of(all.begin(), all.end(), [&](const auto& item) {
@@ -232,7 +235,8 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     const Mechanism& m = system_.mechanism();
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     const bool is_of_motion =
-        m.z->depends(residual, m.q) || m.z->depends(residual, m.qddot) || holds_rates(lhs) || holds_rates(rhs);
+        !is_taken_there_ && (m.z->depends(residual, m.q) || m.z->depends(residual, m.qddot) || holds_rates(lhs) ||
+                             holds_rates(rhs));
     const RestStates::About about{.places = places_,
                                   .names_place = names_coordinate(lhs) || names_coordinate(rhs),
                                   .of_number = is_number(lhs) || is_number(rhs)};

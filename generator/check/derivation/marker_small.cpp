@@ -260,6 +260,12 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
         if (!may_rest(base, system_)) continue;
         bool holds = is_small(residual, base, order, of_potential, system_);
         if (holds && order == 1 && states_second_order(sides, residual, base)) continue;
+        if (holds && order == 2) {  // V = … + m g l θ⁴/24, written further
+            const auto value = [&](const ClaimText& side) { return system_.mechanism().z->expand(truth_.value(side.text)); };
+            if (agree_to_written_order(value(sides.left), value(sides.right), base, system_.mechanism().q, system_,
+                                       of_potential) == false)
+                continue;
+        }
         if (!holds && order == 1) {
             const auto checked = checked_near(notes_.back().claim, base, system_, known_in_motion());
             holds = checked && checked->verdict == Verdict::proved;
@@ -322,13 +328,14 @@ bool Marker::is_frequency_equation(MarkedLine& line, const Math& lhs, const Math
     const Found found = found_at_rest(
         [&](RestStates& states) { return states.is_characteristic(coefficients, {}); }, true, reason);
     const bool holds = found == Found::everywhere || found == Found::on_branch;
-    if (!holds && (found != Found::nowhere || !(speaks_of_frequency_ || speaks_of_small_))) return false;
-    line.status = holds ? LineStatus::right_near : LineStatus::mistake;
+    const bool is_said = speaks_of_frequency_ || speaks_of_small_ || frequency_letters_.contains(*letter);
+    if (!holds && (found != Found::nowhere || !is_said)) return false;
+    if (holds) frequency_letters_.insert(*letter);
+    line.status = holds ? LineStatus::right : LineStatus::mistake;
     line.reason = holds ? say("its roots are the frequencies of small vibrations about {}",
                               say("a state of rest found in numbers"))
                         : say("its roots are no frequencies of small vibrations");
     line.claim = sides.left.text + " = " + sides.right.text;
-    notes_.back().is_sure = true;
     return true;
 }
 

@@ -98,7 +98,8 @@ RestStates::RestStates(const DerivedSystem& system, Kind kind) : system_(system)
     if (e.A.size() != e.lambda.size() || !m.undetermined().empty()) return;
     std::vector<ex> conditions, rows, momenta;  // what the coordinates obey, and the linearized constraints
     for (int i = 0; i < e.size(); ++i) conditions.push_back(m.z->name(e.forcing(i) + system.reaction(i)));
-    conditions = substitute(*m.z, substitute(*m.z, conditions, kind_.special), inputs_);
+    for (const GiNaC::exmap& values : {kind_.special, inputs_, kind_.special})
+        conditions = substitute(*m.z, conditions, values);
     std::vector<ex> forces = conditions;
     for (std::size_t k = 0; k < e.A.size(); ++k) {
         if (m.constraints[k].position) {

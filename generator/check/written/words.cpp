@@ -109,6 +109,15 @@ bool is_conditional(std::string_view words) {
     return !has_phrase(sentence, operations) && !speaks_of_motion(sentence);
 }
 
+bool says_conserved_is(std::string_view words) {
+    const std::string sentence = last_sentence(words);
+    return has_phrase(sentence,
+                      "conserved is|conserved quantity|quantity that is conserved|constant of the motion|first integral|"
+                      "jacobi integral|jacobi's integral|jacobi's function|erhalten ist|erhaltungsgröße|se conserva|"
+                      "integral primera|intégrale première|守恒量*|首次积分*|第一积分*") &&
+           !has_phrase(sentence, "not|no|nicht|kein|keine|pas|不*|非*");
+}
+
 bool asserts(std::string_view words) {
     return has_phrase(last_sentence(words),
                       "we have|we get|we find|we obtain|gives|yields|is|are|keep|keeps|hence|thus|therefore|it follows|"
