@@ -102,9 +102,9 @@ bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_c
     return true;
 }
 
-std::optional<bool> agree_to_written_order(const ex& left, const ex& right, const BaseState& base,
-                                           const std::vector<GiNaC::symbol>& small, const DerivedSystem& system,
-                                           bool up_to_constant) {
+std::optional<WrittenOrder> agree_to_written_order(const ex& left, const ex& right, const BaseState& base,
+                                                   const std::vector<GiNaC::symbol>& small,
+                                                   const DerivedSystem& system, bool up_to_constant) {
     constexpr int most = 4;
     const Mechanism& m = system.mechanism();
     if (small.empty() || m.z->tree_size(left - right) > longest) return std::nullopt;
@@ -121,8 +121,8 @@ std::optional<bool> agree_to_written_order(const ex& left, const ex& right, cons
     while (order > 0 && is_identically_zero(of_right[static_cast<std::size_t>(order)], m)) --order;
     if (order == 0 || order > most) return std::nullopt;
     for (std::size_t k = up_to_constant ? 1 : 0; k <= static_cast<std::size_t>(order); ++k)
-        if (!is_identically_zero(of_left[k] - of_right[k], m)) return false;
-    return true;
+        if (!is_identically_zero(of_left[k] - of_right[k], m)) return WrittenOrder{order, false};
+    return WrittenOrder{order, true};
 }
 
 std::optional<ex> linear_part(const ex& residual, const BaseState& base, const DerivedSystem& system) {

@@ -36,12 +36,18 @@ bool may_rest(const BaseState& base, const DerivedSystem& system);
 bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool up_to_constant,
               const DerivedSystem& system);
 
+/// The order to which the right side of ≈ is written, and whether the left one agrees up to it.
+struct WrittenOrder {
+    int order = 0;
+    bool agrees = true;
+};
+
 /// Whether both sides of 1 − cos θ ≈ θ²/2 agree up to the order to which the right one is written, where the
 /// coordinates `small` and their rates deviate little from the base state, and the others do as they do. Nothing
 /// where the right side is no polynomial in the deviations.
-std::optional<bool> agree_to_written_order(const GiNaC::ex& left, const GiNaC::ex& right, const BaseState& base,
-                                           const std::vector<GiNaC::symbol>& small, const DerivedSystem& system,
-                                           bool up_to_constant = false);
+std::optional<WrittenOrder> agree_to_written_order(const GiNaC::ex& left, const GiNaC::ex& right,
+                                                   const BaseState& base, const std::vector<GiNaC::symbol>& small,
+                                                   const DerivedSystem& system, bool up_to_constant = false);
 
 /// The part of first order in the deviations; nothing for what is too long.
 std::optional<GiNaC::ex> linear_part(const GiNaC::ex& residual, const BaseState& base,

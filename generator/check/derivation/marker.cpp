@@ -78,7 +78,8 @@ void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
     }
 }
 
-/// U = p_φ²/(2 m l² sin²θ) + … is the author's wherever it stands, and so with a letter of his own for the momentum.
+/// U = p_φ²/(2 m l² sin²θ) + … is the author's wherever it stands, and so with a letter of his own for the
+/// momentum.
 void Marker::find_effective_potentials() {
     std::set<Letter> momenta;
     for (const WrittenStatement& statement : written_.statements)

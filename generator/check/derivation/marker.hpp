@@ -96,7 +96,8 @@ private:
     bool judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs);
-    void judge_work(MarkedLine& line, const Math& rhs);
+    void judge_work(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool is_work_of_part(const std::vector<GiNaC::ex>& stated);
     void judge_displacements(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool find_place(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     void judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -141,6 +142,8 @@ private:
     bool is_steady_value(const Math& side, const Math& letter);
     GiNaC::symbol coordinate_of_value(const Letter& letter) const;
     void know_state_letter(const Letter& letter, const GiNaC::symbol& value);
+    bool names_state(const std::map<Letter, int>& all) const;
+    bool says_state(const std::map<Letter, int>& all) const;
     bool is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs);
     MathPtr with_slopes(const MathPtr& math) const;
     bool is_at_number(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -148,6 +151,7 @@ private:
     bool is_condition_of_parameters(const Sides& sides);
     bool is_of_rest_unsaid(MarkedLine& line, const Sides& sides);
     bool holds_to_digits(const Sides& sides);
+    bool holds_from_start(const GiNaC::ex& residual);
     bool holds_at_stated_place(const GiNaC::ex& residual);
     void note_place(const Math& lhs, const Math& rhs);
     bool holds_function_of_state(const Math& math) const;
@@ -325,7 +329,8 @@ private:
     GiNaC::exmap special_values_;    ///< of parameters, as the derivation states them
     bool is_taken_there_ = false;    ///< U''(r) for U''(r_0): its coordinates are those of the state
     std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0
-    GiNaC::exmap stated_place_;    ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
+    GiNaC::exmap start_place_;       ///< φ = π/2 of "released from rest at φ = π/2"
+    GiNaC::exmap stated_place_;      ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
     GiNaC::exmap used_values_;       ///< those of them for which the last line followed
     std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
     bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer

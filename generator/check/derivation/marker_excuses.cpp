@@ -126,7 +126,8 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady || is_approximate;
     if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
-    if (is_own && !statement_->displayed && is_number(rhs) && is_of_parameters(truth_.value(claim_text(lhs, as_written()).text)))
+    if (is_own && !statement_->displayed && is_number(rhs) &&
+        is_of_parameters(truth_.value(claim_text(lhs, as_written()).text)))
         return say("a value in numbers; lines are judged for all values");  // W = 1 of W = m g l
     if (keeps_its_start(lhs, rhs)) {
         is_of_special_start_ = true;
@@ -162,6 +163,13 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         const LineStatus before = line.status;
         settle_in_special_case(line);
         if (line.status != before) return;
+    }
+    if (holds_from_start(kept_of(lhs, rhs))) {
+        line.status = LineStatus::right;
+        line.reason = say("of the motion that starts there from rest");
+        line.follows_from.reset();
+        notes_.back().claim = {};
+        return;
     }
     if (!statement_->displayed && is_condition_of_parameters(sides)) {
         line.status = LineStatus::not_about_scene;
@@ -209,19 +217,18 @@ bool Marker::is_condition_of_parameters(const Sides& sides) {
     return are(sides.left) && are(sides.right) && !(sides.left.names.empty() && sides.right.names.empty());
 }
 
-/// m g l sin φ = 0 without a word of rest: what holds at rest, and fails in motion for want of accelerations alone.
+/// m g l sin φ = 0 without a word of rest: what holds at rest, and fails in motion for want of accelerations
+/// alone.
 bool Marker::is_of_rest_unsaid(MarkedLine& line, const Sides& sides) {
     const Mechanism& m = system_.mechanism();
     if (displacements_ != nullptr || has_quantities(sides)) return false;
-    if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs) || speaks_of_motion(statement_->words))
-        return false;
+    if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs) || speaks_of_motion(statement_->words)) return false;
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     if (!m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
         return false;
     std::string reason;
-    const RestStates::About about{
-        .names_place = names_coordinate(*sides.lhs) || names_coordinate(*sides.rhs),
-        .of_number = is_number(*sides.lhs) || is_number(*sides.rhs)};
+    const RestStates::About about{.names_place = names_coordinate(*sides.lhs) || names_coordinate(*sides.rhs),
+                                  .of_number = is_number(*sides.lhs) || is_number(*sides.rhs)};
     const auto found =
         found_at_rest([&](RestStates& states) { return states.vanishes(residual, about); }, true, reason);
     if (found != RestStates::Found::everywhere && found != RestStates::Found::on_branch) return false;

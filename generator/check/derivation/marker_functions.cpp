@@ -104,7 +104,8 @@ struct Slopes {
             slope.text = "d";
             slope.offset = math->offset, slope.length = math->length;
             slope.args.push_back(std::make_shared<Math>(std::move(letter)));
-            slope.args.insert(slope.args.end(), static_cast<std::size_t>(math->dots), std::make_shared<Math>(place));
+            slope.args.insert(slope.args.end(), static_cast<std::size_t>(math->dots),
+                              std::make_shared<Math>(place));
             return std::make_shared<Math>(std::move(slope));
         }
         Math copy = *math;
@@ -144,12 +145,12 @@ bool Marker::holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rh
     if (left == whole && right == other) return false;
     const Sides sides = sides_of(*left, *right);
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-    const bool holds = system_.rows().holds(system_.rows().row(residual)) == true || holds_at_stated_place(residual);
+    const bool holds =
+        system_.rows().holds(system_.rows().row(residual)) == true || holds_at_stated_place(residual);
     const bool is_of_rest = is_rest_assumed_ || says_rest() || rhs.kind == Kind::number;
     if (!holds && !(is_of_rest && is_of_rest_unsaid(line, sides))) return false;
     line.status = line.status == LineStatus::not_about_scene ? line.status : LineStatus::right;
-    if (line.status == LineStatus::right)
-        line.reason = say("a prime is read as the derivative by the coordinate");
+    if (line.status == LineStatus::right) line.reason = say("a prime is read as the derivative by the coordinate");
     line.claim = sides.left.text + " = " + sides.right.text;
     line.follows_from.reset();
     notes_.back().claim = {};
@@ -159,7 +160,8 @@ bool Marker::holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rh
 /// V''(0)/I = 3 k/(m l²) − …: held at that place, at rest. Otherwise it is told that it is a value at one moment.
 bool Marker::is_at_number(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!holds_value_at_number(lhs) && !holds_value_at_number(rhs)) return false;
-    const MathPtr left = with_slopes(std::make_shared<Math>(lhs)), right = with_slopes(std::make_shared<Math>(rhs));
+    const MathPtr left = with_slopes(std::make_shared<Math>(lhs)),
+                  right = with_slopes(std::make_shared<Math>(rhs));
     if (holds_value_at_number(*left) || holds_value_at_number(*right)) return false;
     const Math* number = nullptr;
     const std::function<void(const Math&)> find = [&](const Math& math) {
@@ -190,8 +192,19 @@ void Marker::note_place(const Math& lhs, const Math& rhs) {
         if (!name || q.get_name() != *name) continue;
         const ClaimText value = claim_text(rhs, as_written());
         const ex place = m.z->expand(truth_.value(value.text));
-        if (is_of_parameters(place)) stated_place_[q] = place;
+        if (!is_of_parameters(place)) continue;
+        stated_place_[q] = place;
+        if (from_rest_) start_place_[q] = place;
     }
+}
+
+/// Whether it keeps its value, and vanishes where the motion starts from rest.
+bool Marker::holds_from_start(const ex& residual) {
+    const Mechanism& m = system_.mechanism();
+    if (start_place_.empty() || displacements_ != nullptr || m.z->depends(residual, m.qddot)) return false;
+    GiNaC::exmap start = start_place_;
+    for (const GiNaC::symbol& rate : m.qdot) start[rate] = 0;
+    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, start)[0]), m) && does_not_change(residual);
 }
 
 /// Whether the line follows from the equations at the place of the sentence.

@@ -163,7 +163,8 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
 void Marker::take_in_relation(const Math& lhs, const Math& rhs) try {
     const Mechanism& m = system_.mechanism();
     const ex residual = m.z->expand(truth_.value(claim_text(lhs, as_written()).text) -
-                                    truth_.value(claim_text(rhs, as_written()).text)).expand();
+                                    truth_.value(claim_text(rhs, as_written()).text))
+                            .expand();
     if (!is_of_parameters(residual)) return;
     for (const Mechanism::Parameter& p : m.parameters) {
         if (!p.independent || !residual.is_polynomial(p.symbol) || residual.degree(p.symbol) != 1) continue;

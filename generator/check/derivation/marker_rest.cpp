@@ -183,6 +183,25 @@ std::vector<std::string> Marker::remarks() const {
     return result;
 }
 
+/// θ_eq and the like, or letters that lines have shown to be of rest.
+bool Marker::names_state(const std::map<Letter, int>& all) const {
+    static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
+    return std::all_of(all.begin(), all.end(), [&](const auto& item) {
+        return !state_letters_.contains(item.first) || indices.contains(item.first.index) ||
+               rest_letters_.contains(item.first);
+    });
+}
+
+/// Whether it is surely a state of rest or of steady motion, and not where a motion turns, begins or ends.
+bool Marker::says_state(const std::map<Letter, int>& all) const {
+    static const std::set<std::string> of_motion{"max", "min", "i", "f"};
+    const bool is_of_turn = std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        return state_letters_.contains(item.first) && of_motion.contains(item.first.index);
+    });
+    return !from_rest_ && !is_of_turn && relation_ != Relation::approximately &&
+           (says_rest() || names_state(all) || steady_lines_ > 0);
+}
+
 /// A line with θ_0, the value of θ at one state: right of states of rest, near them, or of the motion that starts
 /// there. Returns whether that is decided.
 bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& rhs) {
@@ -200,16 +219,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         is_taken_there_ = false;
         return is_decided;
     }
-    static const std::set<std::string> indices{"eq", "e", "s", "st", "star"};
-    const bool is_named = std::all_of(all.begin(), all.end(), [&](const auto& item) {
-        return !state_letters_.contains(item.first) || indices.contains(item.first.index) ||
-               rest_letters_.contains(item.first);
-    });
-    static const std::set<std::string> of_motion{"max", "min", "i", "f"};  // where it turns, begins or ends
-    const bool is_of_turn = std::any_of(all.begin(), all.end(), [&](const auto& item) {
-        return state_letters_.contains(item.first) && of_motion.contains(item.first.index);
-    });
-    const bool is_said = !from_rest_ && !is_of_turn && relation_ != Relation::approximately && (says_rest() || is_named || steady_lines_ > 0);
+    const bool is_named = names_state(all), is_said = says_state(all);
     const bool is_case = speaks_of_special_case(statement_->words);
     if (!statement_->displayed && is_case) {  // "if ω = Ω", "Resonance ω_1 = 2 ω_2"
         under_condition_ = lines_of_condition;
@@ -235,8 +245,8 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     const Mechanism& m = system_.mechanism();
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     const bool is_of_motion =
-        !is_taken_there_ && (m.z->depends(residual, m.q) || m.z->depends(residual, m.qddot) || holds_rates(lhs) ||
-                             holds_rates(rhs));
+        !is_taken_there_ &&
+        (m.z->depends(residual, m.q) || m.z->depends(residual, m.qddot) || holds_rates(lhs) || holds_rates(rhs));
     const RestStates::About about{.places = places_,
                                   .names_place = names_coordinate(lhs) || names_coordinate(rhs),
                                   .of_number = is_number(lhs) || is_number(rhs)};

@@ -261,10 +261,12 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
         bool holds = is_small(residual, base, order, of_potential, system_);
         if (holds && order == 1 && states_second_order(sides, residual, base)) continue;
         if (holds && order == 2) {  // V = … + m g l θ⁴/24, written further
-            const auto value = [&](const ClaimText& side) { return system_.mechanism().z->expand(truth_.value(side.text)); };
-            if (agree_to_written_order(value(sides.left), value(sides.right), base, system_.mechanism().q, system_,
-                                       of_potential) == false)
-                continue;
+            const auto value = [&](const ClaimText& side) {
+                return system_.mechanism().z->expand(truth_.value(side.text));
+            };
+            const auto written = agree_to_written_order(value(sides.left), value(sides.right), base,
+                                                        system_.mechanism().q, system_, of_potential);
+            if (written && !written->agrees) continue;
         }
         if (!holds && order == 1) {
             const auto checked = checked_near(notes_.back().claim, base, system_, known_in_motion());
@@ -289,8 +291,9 @@ const Letter* Marker::letter_of_frequency(const Math& lhs, const Math& rhs, std:
         const auto name = letters_.name_of(letter);
         if (dots > 0) return nullptr;
         const auto known = name ? known_.find(*name) : known_.end();
-        const bool is_constant = name && !letters_.moves(*name) && !is_multiplier(*name) &&
-                                 (letters_.is_of_scene(*name) || (known != known_.end() && is_of_parameters(known->second)));
+        const bool is_constant =
+            name && !letters_.moves(*name) && !is_multiplier(*name) &&
+            (letters_.is_of_scene(*name) || (known != known_.end() && is_of_parameters(known->second)));
         if (is_constant && !frequency_letters_.contains(letter)) continue;
         if (result != nullptr || !bases.contains(letter.base) || (name && letters_.is_of_scene(*name)))
             return nullptr;
@@ -361,23 +364,27 @@ bool Marker::is_approximation(MarkedLine& line, const Sides& sides) {
         for (const std::string& name : side->names)
             if (known_.contains(name) && (name.starts_with("p_") || kept_.contains(name))) held.push_back(name);
     for (const std::string& name : held) truth_.know(name, system_.held(name));
-    const ex left = m.z->expand(truth_.value(sides.left.text)), right = m.z->expand(truth_.value(sides.right.text));
+    const ex left = m.z->expand(truth_.value(sides.left.text)),
+             right = m.z->expand(truth_.value(sides.right.text));
     for (const std::string& name : held) truth_.know(name, known_.at(name));
     std::vector<GiNaC::symbol> angles;
     collect_angles(left, m.q, angles);
     bool fails = false;
     for (const BaseState& base : bases())
         for (const std::vector<GiNaC::symbol>& small : {std::as_const(angles), m.q}) {
-            const std::optional<bool> agree = agree_to_written_order(left, right, base, small, system_);
-            fails = fails || agree == false;
-            if (agree != true) continue;
+            const auto written = agree_to_written_order(left, right, base, small, system_);
+            fails = fails || (written && !written->agrees && written->order > 1);
+            if (!written || !written->agrees) continue;
             line.status = LineStatus::right_near;
             line.reason = say("to the order that is written, near {}", base.text);
             notes_.back().claim = {};
             return true;
         }
-    notes_.back().is_sure = fails && !angles.empty();  // a polynomial in the angles that is another
-    return false;
+    if (!fails || angles.empty() || has_quantities(sides)) return false;  // V without its constant
+    line.status = LineStatus::mistake;  // a polynomial in the angles that is another
+    line.reason = say("the two sides differ at an order that is written");
+    notes_.back().is_sure = true;
+    return true;
 }
 
 }  // namespace alembert

@@ -68,6 +68,16 @@ double last_digit(const std::string& text) {
     return std::pow(10.0, exponent - digits);
 }
 
+/// Whether another number comes from a factor or a sign that is easily lost. Otherwise a value may have been
+/// read otherwise than it is meant, and so may a unit where it is a power of ten.
+bool is_slip_of_number(double written, double exact, double digit) {
+    const double pi = std::acos(-1.0);
+    for (const double factor :
+         {-1.0, 2.0, 0.5, 4.0, 0.25, 3.0, std::sqrt(2.0), std::sqrt(0.5), pi, 1 / pi, 2 * pi, 1 / (2 * pi)})
+        if (std::abs(exact * factor - written) <= std::max(digit, 2e-3 * std::abs(exact * factor))) return true;
+    return false;
+}
+
 }  // namespace
 
 bool is_rounded_value(const Math& side) {
@@ -90,8 +100,7 @@ GiNaC::exmap Marker::own_values() const {
 
 /// Nothing of what is no real number with these values.
 std::optional<double> Marker::in_numbers(const ex& value, const GiNaC::exmap& values) const {
-    const ex there =
-        system_.mechanism().z->expand(value).subs(values, GiNaC::subs_options::no_pattern).evalf();
+    const ex there = system_.mechanism().z->expand(value).subs(values, GiNaC::subs_options::no_pattern).evalf();
     if (!GiNaC::is_a<GiNaC::numeric>(there) || !GiNaC::ex_to<GiNaC::numeric>(there).is_real()) return std::nullopt;
     return GiNaC::ex_to<GiNaC::numeric>(there).to_double();
 }
@@ -102,7 +111,8 @@ std::optional<double> Marker::value_of_numbers(const Math& side) {
     collect_letters(side, all);
     if (!holds_decimals(side)) return std::nullopt;
     const bool may_have_unit = side.kind == Kind::product && side.args.size() == 2 &&
-                               side.args[1]->kind == Kind::letter && side.args[1]->letter.index.empty() && all.size() == 1;
+                               side.args[1]->kind == Kind::letter && side.args[1]->letter.index.empty() &&
+                               all.size() == 1;
     if (may_have_unit && meaning_of_unit(side.args[1]->letter.base)) {  // (1.2 · 9.81)/50 m, whatever m is
         const std::optional<double> number = value_of_numbers(*side.args[0]);
         return number ? std::optional(*number * meaning_of_unit(side.args[1]->letter.base)->factor) : std::nullopt;
@@ -147,8 +157,8 @@ bool Marker::judge_calculation(MarkedLine& line, const Math& formula, double wri
     };
     const bool holds = fits(special_values_) || fits(own_values());
     line.status = holds ? LineStatus::right : LineStatus::not_about_scene;
-    line.reason = holds ? say("to the digits that are written")
-                        : say("a value in numbers; lines are judged for all values");
+    line.reason =
+        holds ? say("to the digits that are written") : say("a value in numbers; lines are judged for all values");
     return true;
 }
 
@@ -189,8 +199,11 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
     };
     const std::optional<bool> stated = fits(special_values_);
     if (!stated && fits(own_values()) != true) return true;
-    line.status = stated == false ? LineStatus::mistake : LineStatus::right;
-    line.reason = stated == false ? say("it is another number with the values that stand above")
+    const std::optional<double> exact = in_numbers(truth, special_values_);
+    const bool is_slip =
+        stated == false && is_slip_of_number(written, *exact, std::max(in_last_digit * digit, 0.0));
+    line.status = stated != false ? LineStatus::right : is_slip ? LineStatus::mistake : LineStatus::undecided;
+    line.reason = stated == false ? say("with the values that stand above it is {:.6g}", *exact / scale)
                   : value.is_unit_of_letters
                       ? say("to the digits that are written; {} is read as a unit", value.unit)
                       : say("to the digits that are written");

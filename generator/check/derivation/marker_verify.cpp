@@ -78,8 +78,8 @@ void Marker::verify() {
     for (MarkedLine& line : lines) name_held(line);
 }
 
-/// A formula among words that fails, and that no small change makes right, is more often meant otherwise than wrong.
-/// Then nothing follows from it either.
+/// A formula among words that fails, and that no small change makes right, is more often meant otherwise than
+/// wrong. Then nothing follows from it either.
 void Marker::withhold_unexplained(std::size_t k) {
     MarkedLine& line = lines[k];
     const bool is_from_line = line.status == LineStatus::follows && line.follows_from;
@@ -94,7 +94,8 @@ void Marker::withhold_unexplained(std::size_t k) {
     const bool is_refuted = line.status == LineStatus::mistake && line.checked.verdict == Verdict::refuted;
     const WrittenStatement& statement = written_.statements[line.statement];
     if (!is_refuted || !is_unexplained || notes_[k].is_sure || statement.displayed) return;
-    if (asserts(statement.words) || speaks_of_quantity(notes_[k])) return;
+    const bool was_evaluated = line.reason.empty();
+    if (was_evaluated && (asserts(statement.words) || speaks_of_quantity(notes_[k]))) return;
     line.status = LineStatus::undecided;
     line.reason = say("as it was read it fails, and no small change makes it right: it may be meant otherwise");
     line.checked = {};

@@ -103,7 +103,7 @@ void Marker::judge_displacements(MarkedLine& line, const Math& lhs, const Math& 
         return;
     }
     if (is_virtual_work(lhs)) {
-        judge_work(line, rhs);
+        judge_work(line, lhs, rhs);
         return;
     }
     if (all_are_differentials(lhs) && all_are_differentials(rhs)) {
@@ -152,8 +152,39 @@ void Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs
     line.reason = holds ? say("for displacements that the constraints allow") : say("it could not be evaluated");
 }
 
+/// Whether these are the generalized forces of some of the loads: of the weights, of one force.
+bool Marker::is_work_of_part(const std::vector<ex>& stated) {
+    constexpr std::size_t most = 5;
+    const Mechanism& m = system_.mechanism();
+    std::vector<std::vector<ex>> parts;
+    for (const Part& part : m.potential) {
+        parts.push_back(m.z->pull_back({{part.value, 1}}, m.q));
+        for (ex& force : parts.back()) force = -force;
+    }
+    for (const Load& load : m.loads) {
+        Mechanism alone = m;
+        alone.loads = {load};
+        const std::vector<ex> of_others = alone.generalized_forces(false);
+        parts.push_back(alone.generalized_forces(true));
+        for (std::size_t i = 0; i < of_others.size(); ++i) parts.back()[i] += of_others[i];
+    }
+    if (parts.size() > most) return false;
+    MotionRows& rows = system_.rows();
+    for (unsigned set = 1; set < 1U << parts.size(); ++set) {
+        bool is_this = true;
+        for (std::size_t i = 0; is_this && i < stated.size(); ++i) {
+            ex rest = stated[i];
+            for (std::size_t k = 0; k < parts.size(); ++k)
+                if ((set >> k & 1U) != 0) rest -= parts[k][i];
+            is_this = rows.is_identity(rows.row(m.z->name(rest))) == true;
+        }
+        if (is_this) return true;
+    }
+    return false;
+}
+
 /// δW = Σ Q_q δq: one claim for each coordinate.
-void Marker::judge_work(MarkedLine& line, const Math& rhs) {
+void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     std::vector<std::string> texts;
     std::vector<ex> own, truth;
@@ -185,7 +216,14 @@ void Marker::judge_work(MarkedLine& line, const Math& rhs) {
     std::optional<std::size_t> wrong;
     for (const std::size_t i : wrong_here)  // rather one that is wrong in both readings
         if (!wrong || (!wrong_otherwise.contains(*wrong) && wrong_otherwise.contains(i))) wrong = i;
-    if (wrong && names_part_of_forces(said_)) {
+    if (wrong && is_work_of_part(truth)) {
+        line.status = LineStatus::right;
+        line.reason = say("the virtual work of a part of the forces");
+        return;
+    }
+    const Math& work = *lhs.args[0];  // δW_g
+    const bool is_named = work.kind == Kind::letter && !work.letter.index.empty();
+    if (wrong && (is_named || names_part_of_forces(said_))) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("the words speak of a part of the forces");
         return;

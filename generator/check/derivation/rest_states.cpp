@@ -76,6 +76,19 @@ std::vector<std::size_t> cyclic_coordinates(const DerivedSystem& system) {
     return result;
 }
 
+/// Of Σ coefficient x^k, from the companion matrix.
+Eigen::VectorXcd roots_of(const std::vector<double>& coefficients) {
+    std::size_t degree = coefficients.size();
+    while (degree > 0 && coefficients[degree - 1] == 0) --degree;
+    if (degree < 2) return {};
+    const auto n = static_cast<Eigen::Index>(degree - 1);
+    Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(n, n);
+    companion.bottomLeftCorner(n - 1, n - 1).setIdentity();
+    for (Eigen::Index k = 0; k < n; ++k)
+        companion(k, n - 1) = -coefficients[static_cast<std::size_t>(k)] / coefficients[degree - 1];
+    return Eigen::EigenSolver<Eigen::MatrixXd>(companion, false).eigenvalues();
+}
+
 /// By itself: Ω t may stand in it and go out.
 bool changes_with_time(const ex& e, const Mechanism& m) {
     return m.z->depends(e, {m.t}) && !is_identically_zero(m.z->name(m.explicit_time_derivative({e})[0]), m);
@@ -478,8 +491,20 @@ RestStates::Found RestStates::is_characteristic(const std::vector<ex>& coefficie
                 return std::abs(s) < std::sqrt(alike) * largest || solves(of(s));
             });
         };
-        return Seen{.holds = all_solve([](Complex s) { return std::sqrt(-s * s); }) ||
-                             all_solve([](Complex s) { return -s * s; }) || all_solve([](Complex s) { return s; })};
+        // or an equation for some of them, as of one mode: then all its roots are
+        const Eigen::VectorXcd roots = roots_of(here);
+        const auto all_are = [&](auto&& of) {
+            return roots.size() > 0 && std::all_of(roots.begin(), roots.end(), [&](const Complex& x) {
+                       const Complex s = of(x);
+                       return (all.array() - s).abs().minCoeff() <= std::sqrt(alike) * largest;
+                   });
+        };
+        const bool is_of_some = all_are([](Complex x) { return x; }) ||
+                                all_are([](Complex x) { return Complex(0, 1) * x; }) ||
+                                all_are([](Complex x) { return std::sqrt(-x); });
+        return Seen{.holds = is_of_some || all_solve([](Complex s) { return std::sqrt(-s * s); }) ||
+                             all_solve([](Complex s) { return -s * s; }) ||
+                             all_solve([](Complex s) { return s; })};
     };
     return weighed(about, false, test);
 }

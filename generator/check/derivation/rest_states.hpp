@@ -55,8 +55,8 @@ public:
     /// Whether i√square solves the equations near a state: with all forces, or without damping.
     Found is_frequency(const GiNaC::ex& square, const About& about);
 
-    /// Whether all that grows or vibrates near a state as e^{st} solves Σ coefficient x^k = 0 for x = s, for x = ω or
-    /// for x = ω² with s² = −ω²; zeros need not.
+    /// Whether all that grows or vibrates near a state as e^{st} solves Σ coefficient x^k = 0 for x = s, for x = ω
+    /// or for x = ω² with s² = −ω²; zeros need not.
     Found is_characteristic(const std::vector<GiNaC::ex>& coefficients, const About& about);
 
     const Kind& kind() const { return kind_; }

@@ -143,8 +143,9 @@ void WrittenLexer::number() {
 void WrittenLexer::primes() {
     const std::size_t begin = at_;
     const bool is_noun = text_.compare(at_, 6, "'diff(") == 0 || text_.compare(at_, 11, "'integrate(") == 0;
-    const bool is_after_sign = list_.empty() || (list_.back().kind != Kind::letter && list_.back().kind != Kind::close &&
-                                                 list_.back().kind != Kind::primes && list_.back().kind != Kind::end_group);
+    const bool is_after_sign =
+        list_.empty() || (list_.back().kind != Kind::letter && list_.back().kind != Kind::close &&
+                          list_.back().kind != Kind::primes && list_.back().kind != Kind::end_group);
     if (is_noun && is_after_sign) {  // of Maxima
         ++at_;
         return;

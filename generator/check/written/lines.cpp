@@ -359,7 +359,8 @@ std::vector<WrittenToken> DocumentReader::plain_tokens(std::size_t begin, std::s
                tokens[i].kind == LineKind::open && tokens[i + 1].kind == LineKind::number &&
                tokens[i + 2].kind == LineKind::close && !binds(tokens[i + 3]) &&
                source(i + 1).find_first_not_of("0123456789.") == std::string_view::npos &&
-               (tokens[i + 2].offset + tokens[i + 2].length < tokens[i + 3].offset || source(i + 3).starts_with(' '));
+               (tokens[i + 2].offset + tokens[i + 2].length < tokens[i + 3].offset ||
+                source(i + 3).starts_with(' '));
     };
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         if (is_label(i)) {

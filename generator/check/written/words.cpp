@@ -53,7 +53,9 @@ bool speaks_of_first_order(std::string_view words) {
         "ausschl*|kleinen ausschl*|kleiner ausschl*|linearisier*|oscilaciones pequeñas|pequeñas "
         "oscilaciones|pequeño|"
         "pequeños ángulos|ángulos pequeños|aproximación lineal|linealiz*|petites oscillations|petits angles|"
-        "linéaris*|near theta|near the bottom|near the vertex|near the top|near the lowest|near the origin|close "
+        "linéaris*|solução linear|pequenas oscilações|perto da origem|perto do equilíbrio|piccole "
+        "oscillazioni|linearizz*|near theta|near the bottom|near the vertex|near the top|near the lowest|near the "
+        "origin|close "
         "to the equilibrium|close to equilibrium|small angles|petit*|"
         "pequeñas*|ángulos pequeños";
     const std::string lower = in_lower_case(words);
@@ -90,9 +92,10 @@ bool is_conditional(std::string_view words) {
         std::find_if(std::begin(beginnings), std::end(beginnings),
                      [&](std::string_view beginning) { return sentence.starts_with(beginning); });
     const bool is_chinese = has_phrase(sentence, "当*时*|若*|如果*|假如*|假定*");
-    const bool is_supposed = has_phrase(
-        sentence, "would|until|wäre|hätte|würde|aurait|serait|jusqu'à|sería|serían|tendría|hasta|"
-                  "sarebbe|avrebbe|fino a|の場合*|のとき*|ならば*|直到*");
+    const bool is_supposed =
+        has_phrase(sentence,
+                   "would|until|wäre|hätte|würde|aurait|serait|jusqu'à|sería|serían|tendría|hasta|"
+                   "sarebbe|avrebbe|fino a|の場合*|のとき*|ならば*|直到*");
     // "In the elastic mode the discs move against each other"
     const bool is_of_mode =
         has_phrase(sentence, "mode|eigenform|eigenschwingung|振型*|mode propre|modo normal|modo propio") &&
@@ -109,26 +112,36 @@ bool is_conditional(std::string_view words) {
     return !has_phrase(sentence, operations) && !speaks_of_motion(sentence);
 }
 
+bool speaks_of_nearness(std::string_view words) {
+    return has_phrase(
+        last_sentence(words),
+        "near|close to|in the vicinity of|in the neighbourhood of|nahe|in der nähe*|cerca de*|près d*|"
+        "perto d*|vicino a*|附近*");
+}
+
 bool says_conserved_is(std::string_view words) {
     const std::string sentence = last_sentence(words);
-    return has_phrase(sentence,
-                      "conserved is|conserved quantity|quantity that is conserved|constant of the motion|first integral|"
-                      "jacobi integral|jacobi's integral|jacobi's function|erhalten ist|erhaltungsgröße|se conserva|"
-                      "integral primera|intégrale première|守恒量*|首次积分*|第一积分*") &&
+    return has_phrase(
+               sentence,
+               "conserved is|conserved quantity|quantity that is conserved|constant of the motion|first integral|"
+               "jacobi integral|jacobi's integral|jacobi's function|erhalten ist|erhaltungsgröße|se conserva|"
+               "integral primera|intégrale première|守恒量*|首次积分*|第一积分*") &&
            !has_phrase(sentence, "not|no|nicht|kein|keine|pas|不*|非*");
 }
 
 bool asserts(std::string_view words) {
-    return has_phrase(last_sentence(words),
-                      "we have|we get|we find|we obtain|gives|yields|is|are|keep|keeps|hence|thus|therefore|it follows|"
-                      "gilt|ist|folgt|somit|erhalten wir|ergibt|on a|on trouve|on obtient|donc|il vient|tenemos|"
-                      "resulta|se obtiene|por tanto|es|si ha|quindi|得*|有|为*|所以*|故*|因此*");
+    return has_phrase(
+        last_sentence(words),
+        "we have|we get|we find|we obtain|gives|yields|is|are|keep|keeps|hence|thus|therefore|it follows|"
+        "gilt|ist|folgt|somit|erhalten wir|ergibt|on a|on trouve|on obtient|donc|il vient|tenemos|"
+        "resulta|se obtiene|por tanto|es|si ha|quindi|得*|有|为*|所以*|故*|因此*");
 }
 
 bool speaks_of_other_system(std::string_view words) {
-    return has_phrase(last_sentence(words),
-                      "analogous|analogue|kepler problem|kepler-problem|keplerproblem|problème de kepler|problema de "
-                      "kepler|开普勒问题*|in contrast to|unlike|im gegensatz zu*|contrairement à|a diferencia de");
+    return has_phrase(
+        last_sentence(words),
+        "analogous|analogue|kepler problem|kepler-problem|keplerproblem|problème de kepler|problema de "
+        "kepler|开普勒问题*|in contrast to|unlike|im gegensatz zu*|contrairement à|a diferencia de");
 }
 
 bool speaks_of_effective_potential(std::string_view words) {

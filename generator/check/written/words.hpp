@@ -29,6 +29,9 @@ bool states_condition(std::string_view words);
 /// describe. Not so where they tell what is done with formulas, as "if we differentiate".
 bool is_conditional(std::string_view words);
 
+/// "Near the straight column a = b = 0": lines are held to first order from then on.
+bool speaks_of_nearness(std::string_view words);
+
 /// "What is conserved is Jacobi's function": what follows is said to keep its value.
 bool says_conserved_is(std::string_view words);
 
