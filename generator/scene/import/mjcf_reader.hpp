@@ -72,7 +72,8 @@ private:
         std::vector<double> gain{1}, bias{0, 0, 0};
         std::string dynamics = "none", gain_type = "fixed", bias_type = "none";
         bool is_known = true;
-        bool is_affine() const { return bias_type == "affine" || bias_type == "none"; }
+        /// Whether it is a constant gain and a bias that is affine in length and rate, in numbers that are known.
+        bool is_affine() const;
     };
     Law law_of(const XmlElement& e);
     void change_law(const XmlElement& e, Law& law);
