@@ -81,7 +81,7 @@ std::optional<std::vector<Expression>> read_sizes(const Table& table, const Soli
         return {};
     }
     std::vector<Expression> sizes;
-    const std::size_t before = reading.diagnostics.size();
+    const std::size_t before = reading.mistakes();
     if (!list) sizes.push_back(read_expression(reading, *entry.node, table.what(key)));
     for (std::size_t k = 0; list && k < count; ++k)
         if (row.key == "polygon") {
@@ -91,13 +91,13 @@ std::optional<std::vector<Expression>> read_sizes(const Table& table, const Soli
         } else {
             sizes.push_back(read_expression(reading, *list->get(k), say("a size")));
         }
-    if (reading.diagnostics.size() > before) return {};
+    if (reading.mistakes() > before) return {};
     const bool are_corners = row.key == "polygon" || row.key == "wedge";
     for (const Expression& size : sizes)
         if (!are_corners && is_negative(size) && (row.key != "cone" || &size == &sizes.front()))
             table.complain(
                 key, say("a size of {} is {}; expected more than 0", in_quotes(std::string(row.key)), size.text));
-    if (reading.diagnostics.size() > before) return {};
+    if (reading.mistakes() > before) return {};
     return row.key == "wedge" ? corners_of_wedge(sizes, place_of(*entry.node), reading) : std::move(sizes);
 }
 
@@ -197,12 +197,12 @@ std::optional<Shape> read_shape_word(const Table& table, const std::string& word
     if (row->beside[0] == "size") {
         sizes = read_sizes(table, *row, "size");
     } else {
-        const std::size_t before = table.reading().diagnostics.size();
+        const std::size_t before = table.reading().mistakes();
         sizes.emplace();
         for (const std::string_view key : row->beside)
             if (!key.empty())
                 sizes->push_back(read_expression(table.reading(), *table.find(key)->node, table.what(key)));
-        if (table.reading().diagnostics.size() > before) return {};
+        if (table.reading().mistakes() > before) return {};
     }
     if (!sizes) return {};
     Shape shape{.kind = row->kind, .sizes = std::move(*sizes), .place = table.find("shape")->place};
@@ -331,9 +331,9 @@ Inertia inertia_of(const Shape& shape, const Expression& mass, const Reading& re
     Inertia inertia;
     inertia.place = shape.place;
     const std::string texts[] = {own.xx, own.yy, own.zz, own.xy, "0", "0"};
-    const std::size_t before = reading.diagnostics.size();
+    const std::size_t before = reading.mistakes();
     for (std::size_t k = 0; k < 6; ++k) {
-        const bool is_zero = texts[k] == "0" || reading.diagnostics.size() > before;  // one message is enough
+        const bool is_zero = texts[k] == "0" || reading.mistakes() > before;  // one message is enough
         inertia.tensor[k] = is_zero ? zero(shape.place)
                                     : formula(fmt::format("({})*({})", mass.text, texts[k]), shape.place, reading);
     }

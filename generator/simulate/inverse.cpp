@@ -15,7 +15,6 @@
 #include "program/lower/inverse.hpp"
 #include "program/lower/lower.hpp"
 #include "simulate/given_accelerations.hpp"
-#include "simulate/given_inputs.hpp"
 #include "simulate/inverse_speeds.hpp"
 
 namespace alembert {
@@ -205,7 +204,7 @@ void add_speeds(InverseLoads& result, const SpeedsAt& speeds, const Loads& loads
 }  // namespace
 
 InverseLoads inverse(Scene scene, const InverseOptions& options) {
-    Overrides at = with_inputs_given(scene, options.at);
+    Overrides at = options.at;
     const std::vector<std::optional<double>> given_speeds = take_speed_rates(at, scene);
     const bool in_speeds = is_any_given(given_speeds);
     at = without_accelerations(std::move(at));
