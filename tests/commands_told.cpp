@@ -108,17 +108,23 @@ TEST_CASE("told: negative normal forces and sizes, rotations in degrees, names o
     CHECK(negative.exit == 4);
     CHECK(negative.err.find("the normal force of friction 'f' is -1") != std::string::npos);
     const auto disc = [](const std::string& size) {
-        return temporary(
-            "disc.toml",
-            "[coordinates]\na = 0\n[[frame]]\nname = \"A\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname "
-            "= \"b\"\nmass = 3\nframe = \"A\"\nposition = [0, 0]\nshape = " +
-                size + "\ninertia = \"from shape\"\n");
+        return temporary("disc.toml",
+                         "coordinates = { a = 0 }\nparameters = { r = -0.5, l = \"2*r + 3\" }\n[[frame]]\nname = "
+                         "\"A\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname "
+                         "= \"b\"\nmass = 3\nframe = \"A\"\nposition = [0, 0]\nshape = " +
+                             size + "\ninertia = \"from shape\"\n");
     };
     CHECK(run({"eval", disc("{ disc = 2 }")}).exit == 0);
     const auto small = run({"eval", disc("{ disc = -2 }")});
     CHECK(small.exit == 3);
-    CHECK(small.err.find("disc.toml:11:11: a size of 'disc' is -2") != std::string::npos);
+    CHECK(small.err.find("disc.toml:11:18: a size of 'disc' is -2") != std::string::npos);
     CHECK(run({"eval", disc("{ box = [1, -1, 1] }")}).exit == 3);
+    for (const auto& [size, exit] : {std::pair("\"r\"", 3), std::pair("\"-r\"", 0), std::pair("\"l\"", 0),
+                                     std::pair("\"l - 3\"", 3), std::pair("\"r^2\"", 0)}) {
+        CAPTURE(std::string(size));
+        const auto by_parameter = run({"eval", disc(fmt::format("{{ disc = {} }}", size))});
+        CHECK(by_parameter.exit == exit);
+    }
     const std::string frame =
         "[[frame]]\nname = \"A\"\nrotate = [[\"z\", {}]]\n[outputs]\no = \"dot(ex(A), ey(N))\"\n";
     CHECK(warnings(on_line(fmt::format(fmt::runtime(frame), "90")), "suspicious_number") == 1);
