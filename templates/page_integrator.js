@@ -3,11 +3,12 @@
 // its dense output and a PI controller (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4-II.6). After each
 // step Newton's method brings the state back to the constraints, as `alembert simulate` does.
 //
-//   const motion = alembertMotion(model, { par, t, state, tolerance, longest });
+//   const motion = alembertMotion(model, { par, t, state, tolerance, longest, latestEnd });
 //   motion.reach(2, deadline)      // the time that has been reached; it ends early at the deadline of performance.now()
 //   motion.state(2)                // coordinates, then speeds
 //   motion.work(2)                 // of loads and prescribed motions since the start
 //
+// latestEnd(t): where a step from t ends at the latest, so that none passes over a pulse in time.
 // model: the functions of an emitted module, with `size` (of the state), `constraints` and `conserved`.
 const alembertMotion = (() => {
 const C = [0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1];
@@ -51,7 +52,7 @@ function constraintKeeper(model) {
   };
 }
 
-return function alembertMotion(model, { par, t: start, state, tolerance, longest }) {
+return function alembertMotion(model, { par, t: start, state, tolerance, longest, latestEnd }) {
   const size = model.size, all = size + 1;  // the last is the work
   const keep = model.project && model.constraints ? constraintKeeper(model) : null;
   const energy = new Float64Array(4), jacobi = new Float64Array(1);
@@ -91,6 +92,8 @@ return function alembertMotion(model, { par, t: start, state, tolerance, longest
   function step() {
     if (steps.length * 5 * all > MOST_NUMBERS) { failure = "long"; return; }
     if (!(h > Math.max(1e-10 * longest, 1e-14 * Math.abs(t)))) { failure = "small"; return; }
+    const latest = latestEnd(t), isHeld = t + h > latest, wish = h;
+    if (isHeld) h = latest - t;
     for (let s = 1; s < 6; ++s) {
       for (let i = 0; i < all; ++i) {
         let sum = 0;
@@ -133,13 +136,13 @@ return function alembertMotion(model, { par, t: start, state, tolerance, longest
       rates(t + h, after, k[6]);
       if (!isFinite(k[6])) { failure = "infinite"; return; }
     }
-    t += h;
+    t = isHeld ? latest : t + h;
     times.push(t);
     steps.push(kept);
     y.set(after);
     k[0].set(k[6]);
     error = Math.max(error, 1e-10);
-    h = Math.min(longest, h * Math.min(5, Math.max(0.2, 0.9 * error ** -0.17 * errorBefore ** 0.04)));
+    h = isHeld ? wish : Math.min(longest, h * Math.min(5, Math.max(0.2, 0.9 * error ** -0.17 * errorBefore ** 0.04)));
     errorBefore = Math.max(error, 1e-4);
   }
 

@@ -129,9 +129,27 @@ return function alembertLive(data, draw, time) {
     return par;
   }
 
+  // Where a step ends at the latest: the times at which inputs change fast are known for the scene's parameters until its end;
+  // elsewhere every step is as short as there.
+  function latestEndFor(par) {
+    const { rows, least, follow } = live.quick;
+    if (!rows.length) return () => Infinity;
+    const isKnown = follow.every(([place, value]) => par[place] === value);
+    return (t) => {
+      if (!isKnown || t >= time.end) return t + least;
+      let end = Math.max(time.end, t + least);
+      for (const [from, to, enter, step] of rows) {
+        if (from >= end) break;
+        if (to > t) end = Math.min(end, t < from ? from + enter : t + step);
+      }
+      return end;
+    };
+  }
+
   // A motion of the state and the parameters that are wished: what is drawn of it, and what is told about it.
   function begun(values) {
-    const par = parameters(values.par), options = { par, t: time.start, longest: (time.end - time.start) / 60 };
+    const par = parameters(values.par), latestEnd = latestEndFor(par);
+    const options = { par, t: time.start, longest: (time.end - time.start) / 60, latestEnd };
     const state = assemble(time.start, values.state, par, held);
     if (!state) return null;
     const fine = alembertMotion(model, { ...options, state, tolerance: TOLERANCE });

@@ -212,4 +212,27 @@ TEST_CASE("derivations: two hundred of a class take less than a minute") {
     CHECK(graded.seconds < 60);
 }
 
+// All changes that may be a slip, each with the claim around it, took 6.6 GB for 3,000 terms.
+TEST_CASE("derivations: lines of thousands of terms or factors are judged in a gigabyte") {
+    const std::string scene = temporary("pendulum.toml", pendulum);
+    const auto repeated = [](const char* sign, int count, const auto& part) {
+        std::string text = "$m l^2 \\ddot\\theta = l";
+        for (int k = 1; k <= count; ++k) text += sign + part(k);
+        return text + "$\n";
+    };
+    const auto l = [](int) { return std::string("l"); };
+    const std::string lines[] = {
+        repeated("+", 3000, l), repeated("*", 3000, l),
+        repeated("+", 380, [](int k) { return fmt::format("{0}\\dot\\theta \\sin({0}\\theta)", k); }),
+        repeated("", 399, [](int k) { return fmt::format("(l+{})", k); })};
+    for (const std::string& line : lines) {
+        CAPTURE(line.substr(0, 40));
+        const std::string file = temporary("long.tex", line);
+        const Run checked = run_shell(R"(ulimit -v 1000000; "$ALEMBERT" check "$1" "$2")", {scene, file});
+        INFO(checked.err);
+        CHECK(checked.exit == 1);
+        CHECK(checked.out.find("mistake") != std::string::npos);
+    }
+}
+
 }  // namespace commands_derivations

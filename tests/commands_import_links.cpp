@@ -60,9 +60,55 @@ TEST_CASE("import: the name of each link is its origin, whether a joint moves it
     const auto wrong = run({"emit", scene, "-o", folder, "--frame", "arms"});
     CHECK(wrong.exit == 3);
     CHECK(wrong.err.find("there is no point or body 'arms'") != std::string::npos);
-    // The motion is that of the same masses without names for the mass centres.
-    const Json found = json_of({"eval", scene, "--at", "j=0.3"});
-    CHECK(std::abs(found["accelerations"]["j"].get<double>()) > 1);
+    // The motion is that of the same three masses in frames that turn by hand.
+    const std::string by_frames = temporary("frames.toml", R"(gravity = [0, 0, -9.81]
+coordinates = { j = 0.3, h = -0.7 }
+[[frame]]
+name = "A"
+rotate = [["y", "j"]]
+[[frame]]
+name = "B"
+parent = "A"
+rotate = [["y", "h"]]
+[[point]]
+name = "pivot"
+offset = [0, 0, 1]
+[[body]]
+name = "arm"
+mass = 2
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+frame = "A"
+from = "pivot"
+position = [0.3, 0, 0]
+axes = "A"
+[[body]]
+name = "tool"
+mass = 1
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+frame = "A"
+from = "pivot"
+position = [0.5, 0, 0.1]
+axes = "A"
+[[body]]
+name = "hand"
+mass = 1
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+frame = "B"
+from = "pivot"
+position = [1, 0, 0]
+axes = "A"
+)");
+    const std::vector<std::string> state{"j'=0.5", "h'=-1.5"};
+    const auto accelerations = [&](const std::string& file, std::vector<std::string> at) {
+        std::vector<std::string> args{"eval", file, "--at"};
+        at.insert(at.end(), state.begin(), state.end());
+        args.insert(args.end(), at.begin(), at.end());
+        return json_of(args)["accelerations"];
+    };
+    const Json found = accelerations(scene, {"j=0.3", "h=-0.7"}), expected = accelerations(by_frames, {});
+    CHECK(found.size() == 2);
+    for (const auto& [name, a] : expected.items())
+        CHECK(std::abs(found[name].get<double>() - a.get<double>()) < 1e-12 * std::abs(a.get<double>()));
 }
 
 TEST_CASE("scene: a body's mass centre has a name of its own, and a point may then have the body's") {
@@ -92,6 +138,29 @@ coordinates = {{ q = 0.4 }}
     CHECK(plain["accelerations"] == named["accelerations"]);
     CHECK(plain["outputs"]["z"] == named["outputs"]["z"]);
     CHECK(std::abs(named["outputs"]["o"].get<double>()) < 1e-15);
+    // Every verb takes the centre's name for a place, and the body's for a frame only.
+    const Json expected = json_of({"eval", body("", ""), "--inertia", "--about", "a"});
+    const std::string scene = body("centre = \"c\"\n", "");
+    CHECK(json_of({"eval", scene, "--inertia", "--about", "c"})["tensor"] == expected["tensor"]);
+    const auto no_point = run({"eval", scene, "--inertia", "--about", "a"});
+    CHECK(no_point.exit == 3);
+    CHECK(no_point.err.find("there is no point 'a'") != std::string::npos);
+    const std::string folder = temporary("wrench", "");
+    for (const auto& [place, exit] :
+         {std::pair("a", 3), std::pair("N", 3), std::pair("c", 0), std::pair("c@a", 0)}) {
+        CAPTURE(place);
+        std::filesystem::remove_all(folder);
+        const auto emitted = run({"emit", scene, "-o", folder, "--wrench", place});
+        CHECK(emitted.exit == exit);
+        if (exit == 3)
+            CHECK(emitted.err.find("is a frame, which has directions but no place") != std::string::npos);
+    }
+    // In a derivation the body's letter is that of its mass centre, which turns about a point 0.3 m away.
+    const auto judged =
+        run({"check", scene, temporary("centre.md", "The velocity of body a is $v_a = 0.3 \\dot q$.\n")});
+    INFO(judged.out);
+    CHECK(judged.out.find("right") != std::string::npos);
+    CHECK(judged.exit == 0);
     CHECK(run({"eval", body("centre = \"O\"\n", "")}).exit == 3);
     CHECK(run({"eval", body("centre = \"c\"\n", "[[point]]\nname = \"c\"\noffset = [0, 0, 0]")}).exit == 3);
 }
@@ -173,6 +242,30 @@ TEST_CASE("import: a model that SDF merges stands with its links, frames and joi
                            two["points"][found]["values"]["position"][i].get<double>()) < 1e-14);
     }
     CHECK(std::abs(one["points"]["f"]["values"]["position"][0].get<double>() - 0.5) < 1e-14);
+    // __model__ in a model nested in the merged one is that one.
+    write("nested",
+          "<sdf version=\"1.9\"><model name=\"drone\"><include merge=\"true\"><uri>model://deep</uri>"
+          "<pose>1 0 0 0 0 0</pose></include></model></sdf>");
+    fs::create_directories(folder / "deep");
+    const auto deep = [&](const std::string& more) {
+        write("deep", "<sdf version=\"1.9\"><model name=\"deep\">" + more + "<link name=\"a\">" + link +
+                          "</link><model name=\"inner\"><pose relative_to=\"__model__\">0 2 0 0 0 0</pose><frame "
+                          "name=\"g\" attached_to=\"__model__\"><pose relative_to=\"__model__\">0 0 3 0 0 0</pose>"
+                          "</frame><link name=\"c\"><pose relative_to=\"__model__\">0 0 1 0 0 0</pose>" +
+                          link + "</link></model></model></sdf>");
+        return run({"import", (folder / "nested" / "model.sdf").string(), "-o", nested, "--strict"});
+    };
+    CHECK(deep("").exit == 0);
+    const Json inner = json_of({"eval", nested, "--kinematics"});
+    for (const auto& [point, z] : {std::pair("inner__c", 1.), std::pair("inner__g", 3.)}) {
+        CAPTURE(point);
+        REQUIRE(inner["points"].contains(point));
+        const Json& place = inner["points"][point]["values"]["position"];
+        CHECK(place == Json({1., 2., z}));
+    }
+    const auto still = deep("<static>true</static>");
+    CHECK(still.exit == 3);
+    CHECK(still.err.find("<static> of a model that is merged into one that moves") != std::string::npos);
     // A fixed joint has no use for an axis: nothing is lost.
     const auto fixed =
         run({"import",

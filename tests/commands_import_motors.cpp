@@ -101,6 +101,34 @@ TEST_CASE("import: defaults of equalities hold for each kind, and a weld without
     CHECK(std::abs(value(box("torquescale=\"1\""), "accelerations", "a_pitch")) < 1e-10);
 }
 
+TEST_CASE("import: what a default of an unknown kind of motor leaves is not taken for a plain motor") {
+    const auto strict = [](const std::string& defaults, const std::string& motor) {
+        const auto told = run({"import",
+                               temporary("r.xml", "<mujoco><default>" + defaults +
+                                                      "</default><worldbody><body name=\"a\"><joint name=\"j\"/>"
+                                                      "<geom size=\".1\" pos=\"1 0 0\"/></body></worldbody>"
+                                                      "<actuator>" +
+                                                      motor + "</actuator></mujoco>"),
+                               "-o", temporary("r.toml", ""), "--drives", "--strict"});
+        return told.exit;
+    };
+    for (const char* kind : {"<muscle/>", "<intvelocity kp=\"3\"/>", "<damper kv=\"2\"/>",
+                             "<adhesion gain=\"5\"/>", "<cylinder area=\"2\"/>"}) {
+        CAPTURE(kind);
+        CHECK(strict(kind, "<general joint=\"j\"/>") == 3);
+        CHECK(strict(kind, "<position joint=\"j\" kp=\"3\"/>") == 3);
+        CHECK(strict(std::string(kind) + "<general gainprm=\"4\"/>", "<general joint=\"j\"/>") == 3);
+        CHECK(strict(kind, "<general joint=\"j\" dyntype=\"none\" gaintype=\"fixed\" biastype=\"affine\"/>") == 3);
+        // What says all is known again.
+        CHECK(strict(kind, "<motor joint=\"j\"/>") == 0);
+        CHECK(strict(kind, "<velocity joint=\"j\" kv=\"3\"/>") == 0);
+        CHECK(
+            strict(kind,
+                   "<general joint=\"j\" dyntype=\"none\" gaintype=\"fixed\" gainprm=\"3\" biastype=\"none\"/>") ==
+            0);
+    }
+}
+
 TEST_CASE("import: thrusters at sites, and motors on free and ball joints, push where and along what they say") {
     // A ball of 0.1 m about the origin of a free body that is turned by a quarter about z: x of the body is y.
     const auto free = [](const std::string& motor) {
@@ -176,6 +204,41 @@ TEST_CASE("import: a keyframe of MJCF is the state in which the scene starts") {
     const auto wrong = run({"import", file, "-o", scene, "--keyframe", "down"});
     CHECK(wrong.exit == 3);
     CHECK(wrong.err.find("expected one of: home, up") != std::string::npos);
+}
+
+TEST_CASE(
+    "import: a keyframe with a zero quaternion keeps its place, and one that turns in gimbal lock needs a "
+    "quaternion") {
+    const auto robot = [](const std::string& q, const std::string& u) {
+        return temporary("robot.xml",
+                         "<mujoco><worldbody><body name=\"a\"><freejoint name=\"a\"/><geom size=\".1\"/>"
+                         "</body></worldbody><keyframe><key name=\"k\" qpos=\"" +
+                             q + "\" qvel=\"" + u + "\"/></keyframe></mujoco>");
+    };
+    const std::string scene = temporary("robot.toml", "");
+    const auto start = [&](const std::string& file, const char* more) {
+        std::vector<std::string> args{"import", file, "-o", scene, "--keyframe", "k"};
+        if (*more != 0) args.emplace_back(more);
+        return run(args);
+    };
+    for (const char* turning : {"", "--quaternion"}) {
+        REQUIRE(start(robot("1 2 3 0 0 0 0", "0 0 0 0 0 0"), turning).exit == 0);
+        const Json k = json_of({"eval", scene, "--kinematics"});
+        CHECK(k["coordinates"]["a_x"] == 1);
+        CHECK(k["coordinates"]["a_z"] == 3);
+        CHECK(k["frames"]["a"]["values"]["direction_cosines"][0][0] == 1);
+    }
+    // A quarter about y.
+    const std::string up = "0 0 0 0.70710678118654757 0 0.70710678118654757 0";
+    const auto refused = start(robot(up, "0 0 0 1 2 3"), "");
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("state 'k' starts joint 'a'") != std::string::npos);
+    CHECK(refused.err.find("--quaternion") != std::string::npos);
+    CHECK(start(robot(up, "1 2 3 0 0 0"), "").exit == 0);
+    CHECK(start(robot(up, "0 0 0 1 2 3"), "--quaternion").exit == 0);
+    const Json k = json_of({"eval", scene, "--kinematics"});
+    for (int i = 0; i < 3; ++i)
+        CHECK(std::abs(k["frames"]["a"]["values"]["own"]["omega"][i].get<double>() - (i + 1)) < 1e-12);
 }
 
 TEST_CASE("import: the damping ratio of a servo is told with its MuJoCo, and refused with --strict") {

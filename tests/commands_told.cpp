@@ -63,7 +63,7 @@ TEST_CASE(
 }
 
 TEST_CASE("told: a force at a constant distance along N from a body that turns is at no place of the body") {
-    const auto body = [](const std::string& axes, const std::string& from) {
+    const auto body = [](const std::string& axes, const std::string& from, const std::string& more = "") {
         return temporary("body.toml", fmt::format(R"([coordinates]
 x = 0.3
 a = 0.4
@@ -83,14 +83,23 @@ axes = "{}"
 [[force]]
 at = "P"
 vector = [2, 5]
-)",
-                                                  from, axes));
+{})",
+                                                  from, axes, more));
     };
     CHECK(warnings(body("N", "offset = [\"x\", 0.5]"), "moving_place") == 1);
     CHECK(warnings(body("N", "from = \"b\"\noffset = [0, 0.5]"), "moving_place") == 1);
     CHECK(warnings(body("A", "from = \"b\"\noffset = [0, 0.5]"), "moving_place") == 0);
     CHECK(warnings(body("N", "from = \"b\"\noffset = [0, 0]"), "moving_place") == 0);
     CHECK(warnings(body("N", "offset = [1, 2]"), "moving_place") == 0);
+    // Neither is one at a constant distance along the axes of another frame, unless these are fixed in the body.
+    const auto frame = [](const std::string& angle, const std::string& parent) {
+        return fmt::format("[[frame]]\nname = \"F\"\nparent = \"{}\"\nrotate = [[\"z\", \"{}\"]]\n", parent,
+                           angle);
+    };
+    const std::string beside = "from = \"b\"\noffset = [0, 0.5]";
+    CHECK(warnings(body("F", beside, frame("2*a", "N")), "moving_place") == 1);
+    CHECK(warnings(body("F", beside, frame("0.3", "N")), "moving_place") == 1);
+    CHECK(warnings(body("F", beside, frame("0.3", "A")), "moving_place") == 0);
 }
 
 TEST_CASE("told: negative normal forces and sizes, rotations in degrees, names of columns and of rows left out") {
@@ -99,17 +108,23 @@ TEST_CASE("told: negative normal forces and sizes, rotations in degrees, names o
     CHECK(negative.exit == 4);
     CHECK(negative.err.find("the normal force of friction 'f' is -1") != std::string::npos);
     const auto disc = [](const std::string& size) {
-        return temporary(
-            "disc.toml",
-            "[coordinates]\na = 0\n[[frame]]\nname = \"A\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname "
-            "= \"b\"\nmass = 3\nframe = \"A\"\nposition = [0, 0]\nshape = " +
-                size + "\ninertia = \"from shape\"\n");
+        return temporary("disc.toml",
+                         "coordinates = { a = 0 }\nparameters = { r = -0.5, l = \"2*r + 3\" }\n[[frame]]\nname = "
+                         "\"A\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname "
+                         "= \"b\"\nmass = 3\nframe = \"A\"\nposition = [0, 0]\nshape = " +
+                             size + "\ninertia = \"from shape\"\n");
     };
     CHECK(run({"eval", disc("{ disc = 2 }")}).exit == 0);
     const auto small = run({"eval", disc("{ disc = -2 }")});
     CHECK(small.exit == 3);
-    CHECK(small.err.find("disc.toml:11:11: a size of 'disc' is -2") != std::string::npos);
+    CHECK(small.err.find("disc.toml:11:18: a size of 'disc' is -2") != std::string::npos);
     CHECK(run({"eval", disc("{ box = [1, -1, 1] }")}).exit == 3);
+    for (const auto& [size, exit] : {std::pair("\"r\"", 3), std::pair("\"-r\"", 0), std::pair("\"l\"", 0),
+                                     std::pair("\"l - 3\"", 3), std::pair("\"r^2\"", 0)}) {
+        CAPTURE(std::string(size));
+        const auto by_parameter = run({"eval", disc(fmt::format("{{ disc = {} }}", size))});
+        CHECK(by_parameter.exit == exit);
+    }
     const std::string frame =
         "[[frame]]\nname = \"A\"\nrotate = [[\"z\", {}]]\n[outputs]\no = \"dot(ex(A), ey(N))\"\n";
     CHECK(warnings(on_line(fmt::format(fmt::runtime(frame), "90")), "suspicious_number") == 1);
@@ -118,10 +133,6 @@ TEST_CASE("told: negative normal forces and sizes, rotations in degrees, names o
     for (const char* name : {"t", "x", "energy"})
         CHECK(run({"eval", on_line(fmt::format("[outputs]\n{} = 1\n", name))}).exit == 3);
     CHECK(run({"eval", on_line("[outputs]\nE = 1\n")}).exit == 0);
-    // A linear spring on a line has |x| in it, which nobody wrote.
-    CHECK(warnings(on_line("[[spring]]\nbetween = [\"O\", \"p\"]\nstiffness = \"k\"\nlength = \"l\"\n"),
-                   "quotient_of_size") == 0);
-    CHECK(warnings(on_line("[forces]\nx = \"-F*x/abs(x)\"\n"), "quotient_of_size") == 1);
     const auto wheel = [](const char* row) {
         return temporary("wheel.toml", fmt::format(R"(gravity = [0, -10]
 [coordinates]
@@ -152,6 +163,25 @@ o = "lambda_w_{}"
 }
 
 TEST_CASE(
+    "told: a quotient that is followed as a sign, however it is written, and no length of a spring or damper") {
+    // The model writes |x| of a spring or damper on a line, whatever else the scene holds.
+    const std::string spring = "[[spring]]\nbetween = [\"O\", \"p\"]\nstiffness = \"k\"\nlength = \"l\"\n",
+                      damper = "[[damper]]\nbetween = [\"O\", \"p\"]\ndamping = \"c\"\n",
+                      other = "[forces]\nx = \"-F*x*abs(x)\"\n";
+    for (const std::string& scene : {spring, damper, spring + damper + other})
+        CHECK(warnings(on_line(scene), "quotient_of_size") == 0);
+    for (const char* force : {"-F*x/abs(x)", "-F*abs(x)/x", "-F*x/sqrt(x^2)", "-F*(x^2)^(3/2)/x^3",
+                              "-F*sqrt(dot(pos(p), pos(p)))/x", "-F*x'/norm(vel(p))"}) {
+        CAPTURE(force);
+        const std::string load = fmt::format("[forces]\nx = \"{}\"\n", force);
+        CHECK(warnings(on_line(load), "quotient_of_size") == 1);
+        CHECK(warnings(on_line(spring + damper + load), "quotient_of_size") == 1);
+    }
+    CHECK(warnings(on_line("[[spring]]\nalong = \"sqrt(x^2)\"\nstiffness = \"k\"\nlength = \"l\"\n"),
+                   "quotient_of_size") == 1);
+}
+
+TEST_CASE(
     "told: a motion of a joint stands where the file has it, and one whose name says another place is refused") {
     const auto planar = [](const std::string& lines) {
         return temporary(
@@ -171,6 +201,26 @@ TEST_CASE(
     CHECK(right["outputs"]["oy"] == 0.7);
     CHECK(run({"eval", planar("coordinates = { x = 0.1, y = 0.2 }\nmotion = { phi = \"0.7\" }")}).exit == 0);
     CHECK(run({"eval", planar("coordinates = { u = 0.1, w = 0.2 }\nmotion = { v = \"0.7\" }")}).exit == 0);
+    // z is the turn of a planar joint, whatever its name, and a longer name may mean something else.
+    CHECK(warnings(planar("motion = { x = \"0.7\" }\ncoordinates = { y = 0.1, z = 0.2 }"), "joint_order") == 0);
+    CHECK(warnings(planar("coordinates = { x = 0.1, z = 0.2 }\nmotion = { turn = \"0.7\" }"), "joint_order") == 0);
+    CHECK(warnings(planar("motion = { s = \"0.7\" }\ncoordinates = { j_x = 0.1, turn = 0.2 }"), "joint_order") ==
+          1);
+    CHECK(warnings(planar("coordinates = { s = 0, j_x = 0.1, turn = 0.2 }\nmotion = { s = \"0.7\" }"),
+                   "joint_order") == 0);
+    CHECK(warnings(planar("coordinates = { y = 0, x = 0.1, turn = 0.2 }\nmotion = { y = \"0.7\" }"),
+                   "joint_order") == 0);
+    const auto free = [](const std::string& lines) {
+        return temporary(
+            "free.toml",
+            "[[body]]\nname = \"B\"\nmass = 3\ninertia = { xx = 1, yy = 1, zz = 1 }\n[[joint]]\nname = "
+            "\"j\"\nparent = \"N\"\nchild = \"B\"\ntype = \"free\"\nangles = \"zyx\"\n" +
+                lines + "\n");
+    };
+    CHECK(
+        run({"eval", free("coordinates = { x = 0.1, y = 0, z = 0, rot_z = 0.2, rot_y = 0.3 }\nmotion = { rot_x = "
+                          "\"0.7\" }")})
+            .exit == 0);
 }
 
 TEST_CASE("told: an input takes a value at a state, and its derivatives are zero") {
@@ -179,6 +229,17 @@ TEST_CASE("told: an input takes a value at a state, and its derivatives are zero
     CHECK(json_of({"eval", scene, "--at", "u=5"})["accelerations"]["x"] == 2.5);
     CHECK(std::abs(json_of({"eval", scene, "--inverse", "--at", "u=5", "x''=1"})["loads"]["x"].get<double>() + 3) <
           1e-14);
+    // A spring balances it: k x = u (1 + …) gives x = 5/3.
+    const std::string held = on_line(
+        "[inputs]\nu = \"2*t\"\n[[force]]\nat = \"p\"\nvector = [\"u\", 0]\n[[spring]]\n"
+        "along = \"x\"\nstiffness = \"k\"\n");
+    const Json rest = json_of({"equilibrium", held, "--at", "u=5"});
+    REQUIRE(rest["equilibria"].size() == 1);
+    CHECK(std::abs(rest["equilibria"][0]["coordinates"]["x"].get<double>() - 5. / 3) < 1e-12);
+    CHECK(json_of({"eval", held, "--inertia", "--at", "u=5"})["mass"] == 2);
+    CHECK(json_of({"eval", held, "--kinematics", "--at", "u=5"})["coordinates"]["x"] == 1);
+    CHECK(run({"stability", held, "--at", "u=5", "x=5/3", "x'=0"}).exit == 0);
+    CHECK(run({"linearize", held, "--at", "u=5", "x=5/3", "x'=0"}).exit == 0);
     CHECK(run({"eval", scene, "--at", "u=1/0"}).exit == 3);
     CHECK(run({"eval", scene, "--at", "v=5"}).exit == 3);
 }
@@ -198,7 +259,14 @@ TEST_CASE("told: no output overwrites a file of a class or of loops, and a class
     const std::string scene = on_line("");
     const auto graded = run({"check", scene, folder.string()});
     CHECK(graded.out.find("own.md") != std::string::npos);
-    CHECK(graded.out.find("linked.md") == std::string::npos);
+    // What is not followed has its row too, with the reason.
+    const Json book = Json::parse(run({"check", scene, folder.string(), "--json"}).out);
+    CHECK(graded.out.find("linked.md") != std::string::npos);
+    int problems = 0;
+    for (const Json& row : book["derivations"])
+        if (row["file"] == "linked.md")
+            problems += row.value("problem", "").find("leads out of the folder") != std::string::npos;
+    CHECK(problems == 1);
     CHECK(run({"check", scene, folder.string(), "--html", (folder.parent_path() / "page.html").string()}).exit ==
           3);
     CHECK(alembert::test::contents((folder / "own.md").string()) == text);

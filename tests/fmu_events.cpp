@@ -67,6 +67,43 @@ TEST_CASE("fmu: a ball bounces as in closed form, whatever steps the importer ta
 
 // The particle passes zeros of cos(4x) at x = (2k + 1) π/8, on its way at 1 m/s, and is slowed down by a tenth at
 // each where the cosine falls.
+// A mass at rest that a pulse starts: v = ∫ F dt.
+TEST_CASE(
+    "fmu: a unit passes over no pulse in time, also where a parameter moves it or it comes after the duration") {
+    const double root = std::sqrt(std::acos(-1.0));
+    const auto scene = [](const std::string& force) {
+        return temporary(
+            "pulse.toml",
+            "[parameters]\na = 5.2345\nb = 1\n[inputs]\nF = \"" + force +
+                "\"\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = \"b\"\nposition = [\"x\", "
+                "0]\n[forces]\nx = \"F\"\n[simulation]\nduration = 10\n");
+    };
+    for (const int version : {2, 3}) {
+        const Unit gauss = exported(scene("exp(-((t - a)/0.001)^2)/0.001"), version);
+        for (const auto& [name, value, speed] : {std::tuple("a", 5.2345, root), std::tuple("a", 7.1234, root),
+                                                 std::tuple("b", 2.0, root / 2), std::tuple("a", 14.25, root)}) {
+            CAPTURE(value);
+            Instance one(gauss, true, 1e-9);
+            one.set(name, value);
+            one.begin();
+            for (int k = 0; k < 4; ++k) REQUIRE(one.step(5. * k, 5));
+            CHECK(std::abs(one.get("der(x)") - speed) < 1e-6);
+        }
+        // A train of one pulse a second, each of 0.001 s: ∫ exp(−(π t)²·10⁶) 10³ dt = 1/√π.
+        const Unit train = exported(scene("1000*exp(-500000*(1 - cos(2*pi*(t - 0.31))))"), version);
+        Instance one(train, true, 1e-9);
+        one.begin();
+        REQUIRE(one.step(0, 10));
+        CHECK(std::abs(one.get("der(x)") - 10 / root) < 1e-5);
+        // An importer is told when one begins.
+        Instance exchanged(train, false);
+        exchanged.begin();
+        exchanged.update();
+        CHECK(exchanged.next_event() < 0.31);
+        CHECK(exchanged.next_event() > 0.29);
+    }
+}
+
 TEST_CASE("fmu: kicks at zeros of a periodic function are all found in one large step") {
     const std::string scene = temporary("marks.toml", R"toml([coordinates]
 x = { initial = 0, rate = 1, unit = "m" }

@@ -231,6 +231,22 @@ position = ["x", "y", "r"]
 
 }  // namespace
 
+// Speeds eliminate the rows by a choice of their own, and a method that solves with all rows is refused.
+TEST_CASE("tied: a cart in speeds of its own accelerates alike, and ida says why it does not follow the cart") {
+    const std::string speeds = "[speeds]\nv = \"x'*cos(th) + y'*sin(th)\"\nturn = \"th'\"\n";
+    const Scene in_speeds = parse_scene(test::redundant_wheels + speeds, "speeds.toml"),
+                own = parse_scene(cart_in_its_own_axes(), "own.toml");
+    for (const double th : headings) {
+        CAPTURE(th);
+        const Evaluation a = evaluate(in_speeds, {.at = rolling_at(th)}),
+                         b = evaluate(own, {.at = rolling_at(th)});
+        CHECK(largest_difference(a.accelerations, b.accelerations) < 1e-9);
+    }
+    CHECK_THROWS_WITH_AS(simulate(parse_scene(test::redundant_wheels, "wheels.toml"), {.method = "ida"}),
+                         doctest::Contains("rows of constraints that depend on each other at some poses"),
+                         ModelError);
+}
+
 TEST_CASE("tied: a tricycle whose fork turns round moves as with independent constraints") {
     RunOptions wishes;
     wishes.duration = 3;

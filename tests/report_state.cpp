@@ -26,6 +26,8 @@ TEST_CASE("report: numbers of a state have four digits, and angles are in degree
     // A fraction of many digits.
     const std::string many(400, '7');
     CHECK(as_written("x", many + "/" + many + "1") == "x ≈ 0.1");
+    CHECK(as_written("x", "-" + many) == "x ≈ -7.777e+399");
+    CHECK(as_written("x", many + "0/7") == "x ≈ 1.111e+400");
     CHECK(as_written("x", "1" + std::string(30, '0') + "1/7") == "x ≈ 1.429e+30");
 }
 

@@ -18,6 +18,16 @@ constexpr double of_sign = 1, of_turn = 1.3, of_square = 1.5, of_number = 1.55, 
                  of_name = 2, of_power = 2.05, of_parameter = 2.2, of_factor = 2.4, of_inner_term = 2.7,
                  of_term = 3, of_digit = 0.03;
 
+/// Terms and factors in all changes: some 100 MB.
+constexpr std::size_t most_room = 4000000;
+
+/// The terms of all sums and the factors of all products.
+std::size_t terms_in(const Tree& tree) {
+    std::size_t count = tree.kind == Kind::sum || tree.kind == Kind::product ? tree.args.size() : 0;
+    for (const TreePtr& arg : tree.args) count += terms_in(*arg);
+    return count;
+}
+
 bool contains(const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
 }
@@ -70,6 +80,7 @@ bool ClaimWords::has_rate(const std::string& name) const {
 Edits::Edits(const Claim& claim, const ClaimWords& words)
     : claim_(claim), words_(words), steady_([this](const Tree& tree) { return words_.is_steady(tree); }) {
     for (const bool left : {true, false}) loose_ = loose_ || has_loose_inner_sum(*side(left), source(left), true);
+    width_ = terms_in(*side(true)) + terms_in(*side(false));
     for (const bool left : {true, false}) terms_of(side(left), left, false, false);
     std::stable_sort(list.begin(), list.end(), [](const Edit& a, const Edit& b) { return a.size < b.size; });
 }
@@ -222,6 +233,7 @@ void Edits::summand(const TreePtr& tree, bool left, bool first, bool alone, bool
                         .alone = alone,
                         .in_angle = in_angle,
                         .in_derivative = in_derivative});
+    if (!has_room()) return;
     const Summand s = summands.back();
     const std::size_t number = summands.size() - 1;
     const bool is_sole = alone && (tree == side(left));
@@ -231,6 +243,11 @@ void Edits::summand(const TreePtr& tree, bool left, bool first, bool alone, bool
     if (!in_angle && (!alone || (is_sole && !is_name(*side(!left)) && !is_zero_number(*side(!left)))))
         list.push_back(without(s, of_term));
     leaves(tree, number, false);
+}
+
+bool Edits::has_room() {
+    complete = complete && list.size() * width_ <= most_room;
+    return complete;
 }
 
 TreePtr Edits::turned(const Summand& s) {
@@ -279,6 +296,7 @@ void Edits::numbers(const Summand& s) {
 
 void Edits::factors(const Summand& s) {
     const auto times = [&](const TreePtr& base, int exponent, const std::string& kind, double size) {
+        if (!has_room()) return;
         ProductTree product(s.body, steady_);
         const bool was_there = product.times(base, exponent);
         Edit edit = with_body(s, product.tree(), kind, size - (was_there ? 0.1 : 0));
@@ -307,6 +325,7 @@ void Edits::factors(const Summand& s) {
 // Parts of terms
 
 void Edits::leaves(const TreePtr& tree, std::size_t number, bool is_power_base) {
+    if (!has_room()) return;
     const Summand s = summands[number];
     switch (tree->kind) {
         case Kind::name:

@@ -62,6 +62,9 @@ public:
 
     std::vector<Edit> list;
     std::vector<Summand> summands;
+    /// Whether `list` has all: each change is a claim of its own, so that those of a sum of thousands of terms
+    /// would take gigabytes.
+    bool complete = true;
 
     /// This says what is exchanged.
     static Edit named(Edit edit, std::string written, std::string meant);
@@ -113,7 +116,10 @@ private:
     const Claim& claim_;
     const ClaimWords& words_;
     std::function<bool(const Tree&)> steady_;
-    bool loose_ = false;  ///< whether inner sums are written with blanks
+    bool has_room();
+
+    std::size_t width_ = 0;  ///< the terms of all sums and factors of all products, of which a change copies some
+    bool loose_ = false;     ///< whether inner sums are written with blanks
 };
 
 /// Whether an acceleration stands in it.

@@ -37,6 +37,7 @@ public:
           edits_(claim, words_) {}
 
     std::optional<Repair> find() {
+        if (!edits_.complete) return std::nullopt;
         std::vector<Edit> parts = edits_.list;
         if (judge_.arithmetic != nullptr) {
             const std::vector<Edit> needed = needed_factors(claim_, edits_, words_, m_, *judge_.arithmetic);

@@ -10,7 +10,8 @@
 ///     found->slip.repair    // "m*l*theta'' + m*g*sin(theta) = 0"
 ///
 /// All changes (check/edits.hpp) are ordered by their size, from a sign to a whole term. The first after which
-/// `is_right` is true is the answer, unless it only makes its term vanish. Where a claim can be evaluated at exact
+/// `is_right` is true is the answer, unless it only makes its term vanish. Nothing is sought in a claim that
+/// is too long for all its changes (`Edits::complete`). Where a claim can be evaluated at exact
 /// states, what each term would have to be there is computed too: a number, powers of parameters, a sine that is
 /// missing. `is_right` is then asked about the few changes that make the claim hold at these states.
 

@@ -29,9 +29,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether a file is in its folder or below it, after links: those that lead out of it are nobody's homework.
+bool stays_in_folder(const fs::path& file) {
+    std::error_code error;
+    const fs::path whole = fs::canonical(file, error), root = fs::canonical(file.parent_path(), error);
+    return !error && std::mismatch(root.begin(), root.end(), whole.begin(), whole.end()).first == root.end();
+}
+
 GradedRow row_of(DerivedSystem& system, const std::string& file, const MarkOptions& options, bool with_page) {
     const std::string name = fs::path(file).filename().string();
     try {
+        if (!stays_in_folder(file))
+            throw ModelError(
+                say("the file is a link that leads out of the folder, which is not followed; put the "
+                    "derivation itself there"));
         const Marked marked = mark(system, read_derivation(text_of_file(file), name), options);
         GradedRow row = graded(marked);
         if (with_page) row.page = marked_fragment(marked);
@@ -96,23 +107,13 @@ void collect(std::FILE* rows, Gradebook& book) {
 
 }  // namespace
 
-namespace {
-
-/// Whether a file is in the folder or below it, after links: those that lead out of it are nobody's homework.
-bool is_inside(const fs::path& file, const fs::path& folder) {
-    std::error_code error;
-    const fs::path whole = fs::canonical(file, error), root = fs::canonical(folder, error);
-    return !error && std::mismatch(root.begin(), root.end(), whole.begin(), whole.end()).first == root.end();
-}
-
-}  // namespace
-
 std::vector<std::string> derivations_in(const std::string& folder) {
     std::vector<std::string> files;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
         const std::string ending = ending_of(entry.path().string());
-        if (entry.is_regular_file(error) && is_inside(entry.path(), folder) &&
+        std::error_code none;
+        if ((entry.is_regular_file(none) || entry.is_symlink(none)) &&
             (ending == ".tex" || ending == ".md" || ending == ".txt"))
             files.push_back(entry.path().string());
     }

@@ -20,7 +20,7 @@ std::vector<SharedOption> all_options() {
         {"--strict", nullptr, say("warnings end the run, with exit code 3")},
         {"--by", values::formalism, say("the formalism; default: the program chooses")},
         {"--at", values::assignment,
-         say("sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; pi/2 is read")},
+         say("sets a coordinate, a rate (\"theta1'=1\"), a parameter, an input, t; pi/2 is read")},
         {"--vary,--over,--follow", values::interval, {}},
         {"--of", values::names, say("frames, bodies and points, as in A,P; default: all")},
         {"--format", values::format, say("text (default), latex or mathml")},

@@ -185,7 +185,7 @@ void need_closed(Building& here, const Joint& joint, const ClosingRow& row, int 
 
 // Axes that coincide, or never do: where no coordinate turns them against each other.
 void align(Building& here, const Joint& joint, int index, std::size_t rows) {
-    Mechanism::Alignment alignment{.joint = index, .place = joint.name.place, .rows = rows, .between = {}};
+    Mechanism::Alignment alignment{.joint = index, .rows = rows, .between = {}};
     for (const ex& product : coinciding_axes(joint, here.places)) {
         if (here.m.z->depends(product, here.m.moving())) {
             alignment.between.push_back(product);

@@ -191,7 +191,7 @@ Vector3 velocity_of_body_at(Building& here, const Force& f) {
 }
 
 /// Whether the point is reached from the origin, a particle or a body by steps of constant length along the axes
-/// of one frame, which may be written in several frames that are fixed in each other.
+/// of one frame, which may be written in several frames that are fixed in each other. Of a body this is its own.
 bool is_fixed_by_construction(Building& here, const std::string& point) {
     std::vector<GiNaC::symbol> moving = here.m.moving();
     moving.insert(moving.end(), here.m.qdot.begin(), here.m.qdot.end());
@@ -219,40 +219,31 @@ bool is_fixed_by_construction(Building& here, const std::string& point) {
         frame = rigid(step.frame);
         at = step.from;
     }
-    // The axes of N are those of no body that turns.
-    return std::none_of(here.scene.bodies.begin(), here.scene.bodies.end(), [&](const Body& b) {
-        return frame == 0 && b.frame.text != "N" && here.places.point(b.point().text) == at;
-    });
+    if (!frame) return true;
+    bool is_body = false;
+    for (const Body& b : here.scene.bodies) {
+        if (here.places.point(b.point().text) != at) continue;
+        if (rigid(here.places.orientation(b.frame.text).frame) == *frame) return true;
+        is_body = true;
+    }
+    return !is_body;
 }
 
-/// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or body. The
-/// axes of N are those of no body that turns: a point at a constant distance along them runs through the body.
+/// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or the origin.
+/// Beside a body, its own axes count alone: a point at a constant distance along others runs through the body.
 bool is_fixed_in_a_body(Building& here, const std::string& point) {
     if (is_fixed_by_construction(here, point)) return true;
-    std::vector<std::string> places, axes;
-    std::set<std::string> turning;  // places beside which N does not count
-    for (const Body& b : here.scene.bodies)
-        if (b.frame.text != "N") turning.insert(b.point().text);
-    for (const Point& p : here.scene.points)
-        if (p.name.text == point) {  // nearly always it keeps its place in the axes in which it is given
-            places.push_back(p.position.from.text);
-            axes.push_back(p.position.axes.text);
-        } else {
-            turning.insert(p.name.text);
-        }
-    places.emplace_back("O");
-    axes.emplace_back("N");
-    for (const Particle& p : here.scene.particles) places.push_back(p.name.text);
-    for (const Body& b : here.scene.bodies) {
-        places.push_back(b.point().text);
-        axes.push_back(b.frame.text);
-    }
-    for (const Frame& f : here.scene.frames) axes.push_back(f.name.text);
-    return std::any_of(places.begin(), places.end(), [&](const std::string& place) {
+    const Scene& scene = here.scene;
+    std::vector<std::string> axes;
+    const Point* own = nullptr;
+    for (const Point& p : scene.points)
+        if (p.name.text == point) own = &p;
+    if (own) axes.push_back(own->position.axes.text);  // nearly always it keeps its place in these
+    for (const Frame& f : scene.frames) axes.push_back(f.name.text);
+    for (const Body& b : scene.bodies) axes.push_back(b.frame.text);
+    const auto keeps = [&](const std::string& place, const std::vector<std::string>& frames) {
         const Vector3 away = between(here, place, point);
-        const bool is_there = away[0].is_zero() && away[1].is_zero() && away[2].is_zero();
-        return std::any_of(axes.begin(), axes.end(), [&](const std::string& frame) {
-            if (frame == "N" && turning.contains(place) && !is_there) return false;
+        return std::any_of(frames.begin(), frames.end(), [&](const std::string& frame) {
             const Orientation& o = here.places.orientation(frame);
             std::vector<ex> components;
             for (int k = 0; k < 3; ++k) components.push_back(dot(away, o.axis(k), *here.m.z));
@@ -260,7 +251,18 @@ bool is_fixed_in_a_body(Building& here, const std::string& point) {
             return std::all_of(rates.begin(), rates.end(),
                                [&](const ex& rate) { return vanishes(rate, here.m) != false; });
         });
-    });
+    };
+    const std::string from = own ? own->position.from.text : "O";
+    if (std::any_of(scene.points.begin(), scene.points.end(),
+                    [&](const Point& p) { return p.name.text == from; }) &&
+        keeps(from, axes))
+        return true;
+    axes.insert(axes.begin() + (own ? 1 : 0), "N");
+    if (keeps("O", axes)) return true;
+    return std::any_of(scene.particles.begin(), scene.particles.end(),
+                       [&](const Particle& p) { return keeps(p.name.text, axes); }) ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [&](const Body& b) { return keeps(b.point().text, {b.frame.text}); });
 }
 
 void add_force(Building& here, const Force& f, const Origin& origin) {

@@ -173,7 +173,6 @@ struct Mechanism {
     /// child is turned by half a turn, or, if no turn is free, by a third of one about the diagonal of the axes.
     struct Alignment {
         int joint;         ///< position in `joints`
-        Place place;       ///< of the joint's name
         std::size_t rows;  ///< how many of `constraints` close the joint's loop
         std::vector<GiNaC::ex>
             between;  ///< the products of axes that coincide, each 1 where the rows hold as meant

@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "model/joints.hpp"
 #include "model/parameter_values.hpp"
+#include "scene/body_points.hpp"
 
 namespace alembert {
 
@@ -121,16 +122,12 @@ std::vector<double> Places::numbers_at_start(const std::vector<ex>& values) cons
 }
 
 const Joint* Places::joint_of(const std::string& name) const {
-    for (const Body& body : scene_.bodies)
-        if (body.point().text == name) return body.joint ? &scene_.joints[*body.joint] : nullptr;
-    return nullptr;
+    const Body* const body = body_at(scene_, name);
+    return body != nullptr && body->joint ? &scene_.joints[*body->joint] : nullptr;
 }
 
 std::string Places::centre_of(const std::string& body) const {
-    if (body == "N") return "O";
-    for (const Body& b : scene_.bodies)
-        if (b.name.text == body) return b.point().text;
-    return body;
+    return alembert::centre_of(scene_, body);
 }
 
 Vector3 Places::unit_axis(const Rotation& r) {
@@ -159,9 +156,8 @@ const Position* Places::find(const std::string& name) const {
         if (p.name.text == name) return &p.position;
     for (const Particle& p : scene_.particles)
         if (p.name.text == name) return &p.position;
-    for (const Body& b : scene_.bodies)
-        if (b.point().text == name) return &b.position;
-    return nullptr;
+    const Body* const body = body_at(scene_, name);
+    return body != nullptr ? &body->position : nullptr;
 }
 
 std::string Places::base_of_point(const std::string& name) const {
@@ -192,8 +188,7 @@ Vector3 Places::position(const std::string& name) {
 
 std::string Places::frame_of(const std::string& name) const {
     if (name == "O") return "N";
-    for (const Body& b : scene_.bodies)
-        if (b.point().text == name && b.joint) return b.name.text;
+    if (const Body* const body = body_at(scene_, name); body != nullptr && body->joint) return body->name.text;
     const Position& place = *find(name);
     const bool is_there = std::all_of(place.offset.component.begin(), place.offset.component.end(),
                                       [](const Expression& e) { return e.text == "0"; });

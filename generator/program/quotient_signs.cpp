@@ -22,9 +22,23 @@ public:
     }
 
     bool found() const { return !signs_.empty(); }
-    std::vector<int> signs() const { return {signs_.begin(), signs_.end()}; }
+    std::vector<QuotientSign> signs() const {
+        std::vector<QuotientSign> result;
+        for (const auto& [argument, found] : signs_) {
+            QuotientSign sign{argument, found.sources};
+            for (const int id : rewriting_.needed)
+                if (rewriting_.image(id) == found.size)
+                    sign.sources.insert(old_[id].sources.begin(), old_[id].sources.end());
+            result.push_back(std::move(sign));
+        }
+        return result;
+    }
 
 private:
+    struct Found {
+        int size;               ///< |x|
+        std::set<int> sources;  ///< of the quotients
+    };
     Program& made() { return rewriting_.made(); }
 
     int rebuilt(int id) {
@@ -88,7 +102,8 @@ private:
             const int sign = made().call(Op::sign, {inner});
             if (count % 2 == 1) exponents[sign] += 1;
             if (count % 2 == 0) exponents[sign] += 2;
-            signs_.insert(inner);
+            Found& one = signs_.try_emplace(inner, Found{size, {}}).first->second;
+            one.sources.insert(old_[id].sources.begin(), old_[id].sources.end());
             changed = true;
         }
         if (!changed) return plain;
@@ -97,12 +112,12 @@ private:
 
     const Program& old_;
     Rewriting rewriting_;
-    std::set<int> signs_;
+    std::map<int, Found> signs_;  // by x
 };
 
 }  // namespace
 
-Program with_quotient_signs(const Program& program, std::vector<int>& signs) {
+Program with_quotient_signs(const Program& program, std::vector<QuotientSign>& signs) {
     QuotientSigns pass(program);
     Program made = pass.finish();
     if (!pass.found()) return program;

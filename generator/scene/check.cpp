@@ -11,6 +11,7 @@
 #include "scene/quaternions.hpp"
 #include "scene/references.hpp"
 #include "scene/sticking.hpp"
+#include "scene/tables.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -43,7 +44,10 @@ public:
     void check(const Looks& looks) {
         const Legal size{.subject = say("a size")},
             place{.subject = say("a place"), .order = 0, .input_order = 0, .time = true};
-        for (const auto& [name, shape] : looks.shapes) check(shape, place);
+        for (const auto& [name, shape] : looks.shapes) {
+            check(shape, place);
+            check_sizes(shape, scene_, diagnostics_);
+        }
         for (const Scenery& one : looks.scenery) {
             const auto is_pulley = [&](const std::string& name) {
                 return std::any_of(looks.scenery.begin(), looks.scenery.end(), [&](const Scenery& other) {
@@ -56,6 +60,7 @@ public:
                 else if (!is_pulley(spot.name->text))
                     quantities_.check_point(*spot.name);
             check(one.shape, place);
+            if (one.kind == Scenery::Kind::solid) check_sizes(one.shape, scene_, diagnostics_);
             quantities_.check(one.from, size);
             quantities_.check(one.to, size);
             if (one.over) check_coordinate(*one.over);

@@ -117,31 +117,34 @@ char letter_of(const std::string& name) {
     return has_letter ? name.back() : 0;
 }
 
-/// A motion beside coordinates stands where the file has it, which may not be what its name says.
-void check_order(const Table& motion, const Joint& joint) {
-    std::size_t k = 0;
-    for (const Move& move : moves_of(joint.type).moves) {
-        if (move.kind != Move::Kind::shift || move.along == 'a' || k >= joint.coordinates.size()) break;
-        const Name& name = joint.coordinates[k++];
+/// A motion that is not among the coordinates stands where the file has it, so that a name may be that of another
+/// shift of the joint. A single letter is refused; a longer name that ends so may mean something else.
+void check_order(const Table& coordinates, const Table& motion, const Joint& joint) {
+    const auto& entries = motion.entries();
+    const auto absent = std::find_if(entries.begin(), entries.end(),
+                                     [&](const Entry& entry) { return !coordinates.has(entry.key); });
+    if (absent == entries.end()) return;
+    const std::vector<Move>& moves = moves_of(joint.type).moves;
+    const auto shifts_along = [](const Move& move, char letter) {
+        return move.kind == Move::Kind::shift && move.along == letter;
+    };
+    for (std::size_t k = 0; k < joint.coordinates.size(); ++k) {
+        const Name& name = joint.coordinates[k];
         const char letter = letter_of(name.text);
-        if (letter == 0 || letter == move.along) continue;
-        return motion.reading().complain(
-            name.place,
-            say("coordinates and prescribed motions of joint {} count in the order of the file, so that "
-                "{} is {} here; write the prescribed one in 'coordinates' too, at its place: {} = 0",
-                in_quotes(joint.name.text), in_quotes(name.text), std::string(1, move.along),
-                motion.entries().empty() ? "q" : motion.entries().front().key));
+        const bool is_shift =
+            std::any_of(moves.begin(), moves.end(), [&](const Move& move) { return shifts_along(move, letter); });
+        const bool has_own = k < moves.size() && moves[k].kind == Move::Kind::shift;
+        if (!is_shift || (has_own && moves[k].along == letter)) continue;
+        const std::string what = has_own ? std::string(1, moves[k].along) : say("an angle");
+        const bool is_single = name.text.size() == 1;
+        motion.reading().diagnostics.push_back(
+            {name.place,
+             say("coordinates and prescribed motions of joint {} count in the order of the file, so that {} is {} "
+                 "here; write the prescribed one in 'coordinates' too, at its place: {} = 0",
+                 in_quotes(joint.name.text), in_quotes(name.text), what, absent->key),
+             is_single ? Severity::error : Severity::warning, is_single ? "" : "joint_order"});
+        return;
     }
-    for (; k < joint.coordinates.size(); ++k)
-        if (const char letter = letter_of(joint.coordinates[k].text);
-            letter != 0 && moves_of(joint.type).has(Move::Kind::shift) && joint.type != Joint::Type::cylindrical)
-            return motion.reading().complain(
-                joint.coordinates[k].place,
-                say("coordinates and prescribed motions of joint {} count in the order of the file, so that {} is "
-                    "an "
-                    "angle here; write the prescribed one in 'coordinates' too, at its place: {} = 0",
-                    in_quotes(joint.name.text), in_quotes(joint.coordinates[k].text),
-                    motion.entries().empty() ? "q" : motion.entries().front().key));
 }
 
 /// Reads coordinates, prescribed motions, drives and rotors. A motion takes the place of the coordinate of its
@@ -183,13 +186,13 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
         }
     std::sort(joint.coordinates.begin(), joint.coordinates.end(),
               [](const Name& a, const Name& b) { return a.place < b.place; });
-    if (coordinates && motion) check_order(*motion, joint);
+    if (coordinates && motion) check_order(*coordinates, *motion, joint);
     if (drive) read_forces(*drive, scene);
     if (armature) read_armatures(*armature, joint, scene);
 }
 
 void read_joint(Table table, Scene& scene) {
-    const std::size_t mistakes = table.reading().diagnostics.size();
+    const std::size_t mistakes = table.reading().mistakes();
     table.allow("joint");
     Joint joint;
     joint.name = table.needed_name("name");
@@ -197,13 +200,13 @@ void read_joint(Table table, Scene& scene) {
     read_type(table, joint);
     joint.parent = read_side(table, "parent");
     joint.child = read_side(table, "child");
-    if (table.reading().diagnostics.size() == mistakes) {
+    if (table.reading().mistakes() == mistakes) {
         read_axis(table, joint);
         read_pitch(table, joint);
         read_angles(table, joint);
     }
     read_coordinates_of(table, joint, scene);
-    joint.is_whole = table.reading().diagnostics.size() == mistakes;
+    joint.is_whole = table.reading().mistakes() == mistakes;
     scene.joints.push_back(std::move(joint));
 }
 

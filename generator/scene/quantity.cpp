@@ -63,27 +63,36 @@ bool Quantities::is_used(Declared::Kind kind, const std::string& name) const {
     return (kind == Declared::Kind::point ? used_points_ : used_values_).contains(name);
 }
 
+namespace {
+
 constexpr double whole_turn = 6.2832;
 
-/// The sine of 30 is hardly that of 30 rad.
+/// A plain number beyond a whole turn, as it is written: hardly radians.
+std::optional<std::string> many_turns(const Tree& angle) {
+    const bool is_negative = angle.kind == Kind::negate;
+    const Tree& number = is_negative ? *angle.args[0] : angle;
+    if (number.kind != Kind::number || value_of_digits(number.text) < whole_turn) return std::nullopt;
+    return (is_negative ? "-" : "") + number.text;
+}
+
+}  // namespace
+
 void Quantities::doubt_angle(const Context& context, const Tree& call) {
     const Tree& arg = *call.args[0];
-    const Tree& number = arg.kind == Kind::negate ? *arg.args[0] : arg;
-    if (number.kind != Kind::number || value_of_digits(number.text) < whole_turn) return;
-    warnings_.push_back({context.expression.place(arg.offset),
-                         say("{0}({1}) takes {1} as radians; an angle in degrees is written {0}({1} deg)",
-                             call.text, (arg.kind == Kind::negate ? "-" : "") + number.text),
-                         Severity::warning, "suspicious_number"});
+    if (const auto number = many_turns(arg))
+        warnings_.push_back(
+            {context.expression.place(arg.offset),
+             say("{0}({1}) takes {1} as radians; an angle in degrees is written {0}({1} deg)", call.text, *number),
+             Severity::warning, "suspicious_number"});
 }
 
 void Quantities::doubt_rotation(const Expression& angle) {
     if (!angle.tree) return;
-    const Tree& number = angle.tree->kind == Kind::negate ? *angle.tree->args[0] : *angle.tree;
-    if (number.kind != Kind::number || value_of_digits(number.text) < whole_turn) return;
-    warnings_.push_back({angle.place(),
-                         say("a rotation takes {0} as radians; an angle in degrees is written {1}", angle.text,
-                             in_quotes(angle.text + " deg")),
-                         Severity::warning, "suspicious_number"});
+    if (const auto number = many_turns(*angle.tree))
+        warnings_.push_back({angle.place(),
+                             say("a rotation takes {0} as radians; an angle in degrees is written {1}", *number,
+                                 in_quotes(*number + " deg")),
+                             Severity::warning, "suspicious_number"});
 }
 
 void Quantities::describe(const Definition& definition) {

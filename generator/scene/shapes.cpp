@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/language/say.hpp"
+#include "scene/plain_number.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -64,11 +65,6 @@ std::vector<Expression> corners_of_wedge(const std::vector<Expression>& legs, Pl
     return corners;
 }
 
-/// Whether it is a number below zero as written; a parameter's value is known later.
-bool is_negative(const Expression& e) {
-    return e.tree && e.tree->kind == Tree::Kind::negate && e.tree->args[0]->kind == Tree::Kind::number;
-}
-
 /// The sizes that stand after `key`, the row's own or that of shape = "box".
 std::optional<std::vector<Expression>> read_sizes(const Table& table, const SolidRow& row, std::string_view key) {
     const Entry& entry = *table.find(key);
@@ -81,7 +77,7 @@ std::optional<std::vector<Expression>> read_sizes(const Table& table, const Soli
         return {};
     }
     std::vector<Expression> sizes;
-    const std::size_t before = reading.diagnostics.size();
+    const std::size_t before = reading.mistakes();
     if (!list) sizes.push_back(read_expression(reading, *entry.node, table.what(key)));
     for (std::size_t k = 0; list && k < count; ++k)
         if (row.key == "polygon") {
@@ -91,13 +87,7 @@ std::optional<std::vector<Expression>> read_sizes(const Table& table, const Soli
         } else {
             sizes.push_back(read_expression(reading, *list->get(k), say("a size")));
         }
-    if (reading.diagnostics.size() > before) return {};
-    const bool are_corners = row.key == "polygon" || row.key == "wedge";
-    for (const Expression& size : sizes)
-        if (!are_corners && is_negative(size) && (row.key != "cone" || &size == &sizes.front()))
-            table.complain(
-                key, say("a size of {} is {}; expected more than 0", in_quotes(std::string(row.key)), size.text));
-    if (reading.diagnostics.size() > before) return {};
+    if (reading.mistakes() > before) return {};
     return row.key == "wedge" ? corners_of_wedge(sizes, place_of(*entry.node), reading) : std::move(sizes);
 }
 
@@ -113,6 +103,19 @@ char read_letter_of_axis(const Table& table) {
 
 bool names_solid(std::string_view key) {
     return std::any_of(std::begin(solids), std::end(solids), [&](const SolidRow& row) { return row.key == key; });
+}
+
+void check_sizes(const Shape& shape, const Scene& scene, std::vector<Diagnostic>& mistakes) {
+    if (shape.kind == Solid::polygon) return;  // of corners
+    for (std::size_t k = 0; k < shape.sizes.size(); ++k) {
+        const std::optional<double> size = plain_number(shape.sizes[k], scene);
+        if (!size || !(*size < 0) || (shape.kind == Solid::cone && k > 0)) continue;  // a cone may point down
+        const auto row = std::find_if(std::begin(solids), std::end(solids),
+                                      [&](const SolidRow& one) { return one.kind == shape.kind; });
+        mistakes.push_back(
+            {shape.sizes[k].place(), say("a size of {} is {}; expected more than 0",
+                                         in_quotes(std::string(row->key)), fmt::format("{:.6g}", *size))});
+    }
 }
 
 void read_attitude(const Table& table, Shape& shape) {
@@ -197,12 +200,12 @@ std::optional<Shape> read_shape_word(const Table& table, const std::string& word
     if (row->beside[0] == "size") {
         sizes = read_sizes(table, *row, "size");
     } else {
-        const std::size_t before = table.reading().diagnostics.size();
+        const std::size_t before = table.reading().mistakes();
         sizes.emplace();
         for (const std::string_view key : row->beside)
             if (!key.empty())
                 sizes->push_back(read_expression(table.reading(), *table.find(key)->node, table.what(key)));
-        if (table.reading().diagnostics.size() > before) return {};
+        if (table.reading().mistakes() > before) return {};
     }
     if (!sizes) return {};
     Shape shape{.kind = row->kind, .sizes = std::move(*sizes), .place = table.find("shape")->place};
@@ -331,9 +334,9 @@ Inertia inertia_of(const Shape& shape, const Expression& mass, const Reading& re
     Inertia inertia;
     inertia.place = shape.place;
     const std::string texts[] = {own.xx, own.yy, own.zz, own.xy, "0", "0"};
-    const std::size_t before = reading.diagnostics.size();
+    const std::size_t before = reading.mistakes();
     for (std::size_t k = 0; k < 6; ++k) {
-        const bool is_zero = texts[k] == "0" || reading.diagnostics.size() > before;  // one message is enough
+        const bool is_zero = texts[k] == "0" || reading.mistakes() > before;  // one message is enough
         inertia.tensor[k] = is_zero ? zero(shape.place)
                                     : formula(fmt::format("({})*({})", mass.text, texts[k]), shape.place, reading);
     }

@@ -87,6 +87,12 @@ Place place_of(const toml::node& node) {
     return {static_cast<int>(begin.line), static_cast<int>(begin.column)};
 }
 
+std::size_t Reading::mistakes() const {
+    return static_cast<std::size_t>(
+        std::count_if(diagnostics.begin(), diagnostics.end(),
+                      [](const Diagnostic& one) { return one.severity == Severity::error; }));
+}
+
 std::string kind_of(const toml::node& node) {
     switch (node.type()) {
         case toml::node_type::string:

@@ -29,6 +29,8 @@ struct Reading {
     const KnownNames& names;  ///< what the file declares
 
     void complain(Place place, std::string message) const { diagnostics.push_back({place, std::move(message)}); }
+    /// How many mistakes there are so far; warnings are none.
+    std::size_t mistakes() const;
 };
 
 struct Entry {

@@ -9,7 +9,7 @@
 
 namespace alembert {
 
-inline constexpr std::array<std::string_view, 18> warning_kinds{"unit_mismatch",
+inline constexpr std::array<std::string_view, 19> warning_kinds{"unit_mismatch",
                                                                 "unused",
                                                                 "no_effect",
                                                                 "no_length",
@@ -26,6 +26,7 @@ inline constexpr std::array<std::string_view, 18> warning_kinds{"unit_mismatch",
                                                                 "not_a_number",
                                                                 "unknown_unit",
                                                                 "nearly_redundant",
+                                                                "joint_order",
                                                                 "left_out"};
 
 }  // namespace alembert

@@ -144,7 +144,7 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
                                    with_contacts_watched(with_closed(derived_.mechanism, closed), closed), planes),
                                closed.empty() ? derived_.by : formalism_for(Need::multipliers).name);
     seconds_.derive += lap();
-    std::vector<int> signs;  // told already
+    std::vector<QuotientSign> signs;  // told already
     Program program = free_ && is_own ? *std::move(free_) : with_quotient_signs(lowered(derived).program, signs);
     if (program.singular) need_accelerations(derived, program, first);
     std::optional<Switched> jumps;

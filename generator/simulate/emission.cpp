@@ -48,14 +48,15 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
     std::vector<StopEvent> stops;
     for (std::size_t k = 0; k < m.event_actions.size(); ++k)
         if (m.event_actions[k].stop) stops.push_back({static_cast<int>(k), m.event_actions[k].direction});
-    return standalone(program,
-                      {.t = start.t,
-                       .state = state_in(start, e),
-                       .duration = start.duration,
-                       .tolerance = start.tolerance,
-                       .quick_times = quick_times(program, start.parameters, start.t, start.t + start.duration),
-                       .stops = stops},
-                      language);
+    return standalone(
+        program,
+        {.t = start.t,
+         .state = state_in(start, e),
+         .duration = start.duration,
+         .tolerance = start.tolerance,
+         .quick_times = sudden_times(quick_times(program, start.parameters, start.t, start.t + start.duration)),
+         .stops = stops},
+        language);
 }
 
 /// The state of the calling example: coordinates that follow from the constraints with 12 digits in the C++

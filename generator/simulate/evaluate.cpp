@@ -19,7 +19,6 @@
 #include "program/lower/robot_functions.hpp"
 #include "program/without_rounding.hpp"
 #include "scene/text.hpp"
-#include "simulate/given_inputs.hpp"
 #include "simulate/held_state.hpp"
 #include "simulate/sides.hpp"
 
@@ -156,7 +155,7 @@ void add_reactions(Evaluation& e, const Program& program, const State<double>& s
 }  // namespace
 
 Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
-    const Overrides at = with_inputs_given(scene, options.at);
+    const Overrides& at = options.at;
     Evaluation e{derived(std::move(scene), {.by = options.by,
                                             .use = Use::asked,
                                             .reactions = options.reactions,

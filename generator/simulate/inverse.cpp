@@ -6,16 +6,18 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
+#include "model/friction.hpp"
 #include "program/lower/inverse.hpp"
 #include "program/lower/lower.hpp"
 #include "simulate/given_accelerations.hpp"
-#include "simulate/given_inputs.hpp"
+#include "simulate/inverse_friction.hpp"
 #include "simulate/inverse_speeds.hpp"
 
 namespace alembert {
@@ -192,6 +194,42 @@ void add_multipliers(InverseLoads& result, const Eigen::VectorXd& multipliers) {
                 result.multipliers.emplace_back(c.multiplier.get_name(), multipliers[next++]);
 }
 
+/// The loads at a state where friction, contacts or both may be at rest, with a warning for what they bear.
+Loads with_friction(InverseLoads& result, Affine s, const State<double>& state,
+                    const std::function<Loads(const Affine&)>& solved) {
+    const Mechanism& m = result.mechanism;
+    const FrictionAtState friction(m, state);
+    const Eigen::VectorXd without = s.minus_f;
+    Loads loads = solved(s);
+    FrictionAtState::Against against = friction.against(loads.acceleration);
+    constexpr int most_rounds = 20;
+    for (int round = 0;; ++round) {
+        s.minus_f = without + against.load;
+        loads = solved(s);
+        FrictionAtState::Against next = friction.against(loads.acceleration);
+        const bool is_same =
+            next.directions == against.directions && (next.load - against.load).norm() <= 1e-12 * next.load.norm();
+        against = std::move(next);
+        if (is_same) break;
+        if (round == most_rounds)
+            throw IntegrationError(say("which way friction acts is not determined at t = {:.6g}: give the "
+                                       "accelerations of all coordinates",
+                                       state.t),
+                                   state.t, state.q);
+    }
+    for (const std::size_t k : against.stuck)
+        result.warn(
+            "left_out",
+            say("warning: friction '{}' does not slide here: it bears any force up to {:.6g}, and the loads "
+                "are those without it\n",
+                friction.name(k), friction.bound(k)));
+    for (const std::string& name : contacts_not_opened(m, state, loads.acceleration))
+        result.warn("left_out", say("warning: contact '{}' is closed here, and what it bears is not determined by "
+                                    "accelerations: the loads are those without it\n",
+                                    name));
+    return loads;
+}
+
 void add_speeds(InverseLoads& result, const SpeedsAt& speeds, const Loads& loads, const Mechanism& m) {
     for (const Mechanism::Speed& speed : m.speeds) result.speeds.push_back(speed.u.get_name());
     const Eigen::VectorXd rates = speeds.W * loads.acceleration + speeds.rest;
@@ -205,7 +243,7 @@ void add_speeds(InverseLoads& result, const SpeedsAt& speeds, const Loads& loads
 }  // namespace
 
 InverseLoads inverse(Scene scene, const InverseOptions& options) {
-    Overrides at = with_inputs_given(scene, options.at);
+    Overrides at = options.at;
     const std::vector<std::optional<double>> given_speeds = take_speed_rates(at, scene);
     const bool in_speeds = is_any_given(given_speeds);
     at = without_accelerations(std::move(at));
@@ -215,7 +253,7 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     Start start = start_of(m, at);
     assemble(start, m, lower_constraints(m), at);
     const Mechanism whole = with_tied_ones(m);
-    const Affine s = affine(lower_inverse(whole), start.state());
+    const Affine s = affine(lower_inverse(without_plane_friction(whole)), start.state());
     std::optional<SpeedsAt> speeds;
     if (!m.speeds.empty()) speeds = speeds_at(m, start.state(), s.A, s.gamma);
     if (in_speeds && is_any_given(given))
@@ -225,8 +263,10 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
         throw IntegrationError(say("the speeds do not determine the rates at these coordinates; give the "
                                    "accelerations of coordinates"),
                                start.t, start.q);
-    const Loads loads = in_speeds ? loads_in_speeds(s, *speeds, given_speeds, m, start)
-                                  : loads_for(s, m.constraints.size(), given, names_of_constraints(whole), start);
+    const Loads loads = with_friction(result, s, start.state(), [&](const Affine& at_friction) {
+        return in_speeds ? loads_in_speeds(at_friction, *speeds, given_speeds, m, start)
+                         : loads_for(at_friction, m.constraints.size(), given, names_of_constraints(whole), start);
+    });
     if (!loads.load.allFinite() || !loads.acceleration.allFinite())
         throw IntegrationError(say("there are no finite loads at t = {:.6g}", start.t), start.t, start.q);
     result.time = start.t;

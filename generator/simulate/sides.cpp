@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include "base/language/say.hpp"
 #include "program/quotient_signs.hpp"
@@ -88,20 +87,84 @@ std::string text_of(const Program& p, int id, int depth = 0) {
 
 }  // namespace
 
+namespace {
+
+using Labels = std::set<std::string>;
+
+/// The labels of springs and dampers between two points, whose lengths nobody wrote.
+Labels labels_of_lengths(const Scene& scene) {
+    Labels labels;
+    const auto add = [&](const std::vector<Link>& links, Origin::Kind kind) {
+        for (std::size_t i = 0; i < links.size(); ++i)
+            if (links[i].between) labels.insert(label({kind, static_cast<int>(i)}));
+    };
+    add(scene.springs, Origin::Kind::spring);
+    add(scene.dampers, Origin::Kind::damper);
+    return labels;
+}
+
+/// The labels of parts that hold a quotient with a size, √… or |…|, above or below what moves, beside those of
+/// `lengths`.
+Labels labels_of_quotients(const Mechanism& m, const Labels& lengths) {
+    std::vector<GiNaC::symbol> moving = m.moving();
+    moving.insert(moving.end(), m.qdot.begin(), m.qdot.end());
+    const auto is_size = [](const GiNaC::ex& e) {
+        if (GiNaC::is_a<GiNaC::power>(e)) return !e.op(1).info(GiNaC::info_flags::integer);
+        if (!GiNaC::is_a<GiNaC::function>(e)) return false;
+        const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
+        return name == "abs" || name == "absolute";
+    };
+    const auto any_part = [](const GiNaC::ex& e, const auto& has) {
+        for (auto part = e.preorder_begin(); part != e.preorder_end(); ++part)
+            if (has(*part)) return true;
+        return false;
+    };
+    std::vector<GiNaC::symbol> sizes, quotients;
+    Labels labels;
+    for (const Intermediates::Entry& entry : m.z->entries()) {
+        const auto holds = [&](const std::vector<GiNaC::symbol>& of) {
+            return std::any_of(entry.uses.begin(), entry.uses.end(), [&](const GiNaC::symbol& s) {
+                return std::find(of.begin(), of.end(), s) != of.end();
+            });
+        };
+        const bool has_size = holds(sizes) || any_part(entry.definition, is_size);
+        if (has_size) sizes.push_back(entry.symbol);
+        const bool is_written = std::none_of(entry.sources.begin(), entry.sources.end(), [&](int source) {
+            return lengths.contains(m.z->source_labels()[static_cast<std::size_t>(source)]);
+        });
+        const bool divides = has_size && any_part(entry.definition, [&](const GiNaC::ex& part) {
+                                 return GiNaC::is_a<GiNaC::power>(part) &&
+                                        part.op(1).info(GiNaC::info_flags::negative) &&
+                                        m.z->depends(part.op(0), moving);
+                             });
+        if (!is_written || !(divides || holds(quotients))) continue;
+        quotients.push_back(entry.symbol);
+        for (const int source : entry.sources)
+            labels.insert(m.z->source_labels()[static_cast<std::size_t>(source)]);
+    }
+    for (const Load& load : m.loads)
+        for (const Load::Pair& pair : load.pairs)
+            if (m.z->depends(pair.force, quotients)) labels.insert(label(load.origin));
+    return labels;
+}
+
+}  // namespace
+
 Program with_signs_told(Prepared& prepared, const Program& program) {
-    constexpr const char* sizes[] = {"abs", "sqrt", "norm", "^0.5", "1/2)"};
-    std::vector<int> signs;
+    std::vector<QuotientSign> signs;
     Program made = with_quotient_signs(program, signs);
+    if (signs.empty()) return made;
+    const Labels lengths = labels_of_lengths(prepared.scene),
+                 written = labels_of_quotients(prepared.mechanism, lengths);
     std::set<std::string> arguments;
-    // A spring on a line has such a quotient too, which nobody wrote.
-    std::string written, line;
-    for (std::istringstream lines(prepared.scene.text); std::getline(lines, line);)
-        written += line.substr(0, line.find('#')) + "\n";
-    const bool may_be_written = std::any_of(std::begin(sizes), std::end(sizes), [&](const char* size) {
-        return written.find(size) != std::string::npos;
-    });
-    for (const int x : signs)
-        if (may_be_written) arguments.insert(text_of(made, x));
+    for (const QuotientSign& sign : signs) {
+        const auto is_among = [&](const Labels& labels) {
+            return std::any_of(sign.sources.begin(), sign.sources.end(), [&](int source) {
+                return labels.contains(made.source_labels[static_cast<std::size_t>(source)]);
+            });
+        };
+        if (!is_among(lengths) || is_among(written)) arguments.insert(text_of(made, sign.argument));
+    }
     for (const std::string& x : arguments)
         prepared.warn(
             "quotient_of_size",

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "alembert/base/error.hpp"
@@ -46,6 +47,14 @@ void need_sundials(const Derived& d, std::string_view method) {
         throw ModelError(say("method '{}' does not follow {}; take {}", method,
                              say("constraints in generalized speeds (the formalism 'routh' has them in rates)"),
                              say("cvode, radau (stiff both) or dop853")));
+    const auto& constraints = d.mechanism.constraints;
+    const auto tied = std::find_if(constraints.begin(), constraints.end(),
+                                   [](const Mechanism::Constraint& c) { return c.tie.has_value(); });
+    if (method == ida && tied != constraints.end())
+        throw ModelError(
+            say("method '{}' does not follow {}; take {}", method,
+                say("rows of constraints that depend on each other at some poses, as '{}' does", tied->name),
+                say("cvode, radau (stiff both) or dop853")));
 }
 
 Integrator sundials_integrator(std::string_view method, const Module& module,

@@ -5,6 +5,8 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "program/lower/frame_functions.hpp"
+#include "scene/body_points.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -28,9 +30,7 @@ bool is_frame(const Scene& scene, const std::string& name) {
 
 /// The frame that turns with the point.
 std::string frame_of(const Scene& scene, const std::string& point) {
-    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                   [&](const Body& one) { return one.point().text == point; });
-    if (body != scene.bodies.end()) return body->joint ? body->name.text : body->frame.text;
+    if (const Body* const body = body_at(scene, point)) return body->joint ? body->name.text : body->frame.text;
     if (is_frame(scene, point)) return point;
     if (const auto own = found(scene.points, point); own != scene.points.end()) return own->position.axes.text;
     const auto particle = found(scene.particles, point);
@@ -42,6 +42,7 @@ std::string frame_of(const Scene& scene, const std::string& point) {
 }  // namespace
 
 void with_wrench(Scene& scene, const std::string& place, const std::string& prefix) {
+    check_place(scene, place);
     const std::size_t at = place.find('@');
     const std::string point = place.substr(0, at);
     std::string frame = frame_of(scene, point);

@@ -157,6 +157,10 @@ def main(program, scenes, shots=""):
         motions(browser, checker, "textbook/four_bar", 2,
                 [("m3", 1.5, True), ("alpha", 0.75, False, "alpha = { initial = 0.5", "alpha = { initial = 0.75"),
                  ("m2", 1.25, True, "m2 = { value = 2.0", "m2 = { value = 1.25")])
+        # A pulse of 0.003 s in 10 s, as it is and where a parameter has moved it.
+        motions(browser, checker, "../tests/browser/pulse", 10,
+                [("m", 2.0, True, "m = { value = 1.0", "m = { value = 2.0"),
+                 ("a", 7.25, True, "a = { value = 5.2345", "a = { value = 7.25")])
         drags(browser, checker, "textbook/double_pendulum", (60, -40))
         drags(browser, checker, "textbook/four_bar")
         drags(browser, checker, "textbook/rolling_disc_in_space", (40, -15))  # the view follows it

@@ -15,6 +15,7 @@
 #include "model/formulas.hpp"
 #include "model/geometry.hpp"
 #include "program/lower/lower.hpp"
+#include "scene/body_points.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -56,9 +57,7 @@ std::vector<const MassElement*> chosen(const SceneInertia& s, const std::vector<
 
 void check_point(const Scene& scene, const std::string& point) {
     std::vector<std::string> known{"O"};
-    for (const Point& p : scene.points) known.push_back(p.name.text);
-    for (const Particle& p : scene.particles) known.push_back(p.name.text);
-    for (const Body& b : scene.bodies) known.push_back(b.name.text);
+    for (std::string& name : points_of(scene)) known.push_back(std::move(name));
     refuse_unknown(say("point"), point, known);
 }
 

@@ -11,6 +11,7 @@
 #include "alembert/base/random.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
+#include "analysis/state/nearly_redundant.hpp"
 #include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
@@ -99,16 +100,6 @@ void LeftOut::check(const Start& start) const {
     }
 }
 
-double LeftOut::size_of_such(int k, const std::function<double(int)>& size) const {
-    const Mechanism::Constraint& one = both_->constraints[static_cast<std::size_t>(k)];
-    double result = one.turns ? 1 : 0;
-    for (int other = 0; other < both_->count; ++other) {
-        const Mechanism::Constraint& c = both_->constraints[static_cast<std::size_t>(other)];
-        if (c.joint == one.joint && c.turns == one.turns) result = std::max(result, size(other));
-    }
-    return result;
-}
-
 bool LeftOut::move_onto_kept(Start& start) const {
     start.speeds.clear();
     try {
@@ -130,19 +121,23 @@ void LeftOut::check_position(const State<double>& state) const {
     const Program& p = both_->program;
     const std::vector<double> value = interpret(p, state), size = sizes_of_terms(p, state);
     const std::vector<int> nodes = p.nodes_of(Group::position), rows = p.nodes_of(Group::row);
+    const auto n = static_cast<Eigen::Index>(state.q.size());
+    const auto row = [&](int k) {
+        Eigen::VectorXd result(n);
+        for (Eigen::Index i = 0; i < n; ++i)
+            result[i] = value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k * n + i)])];
+        return result;
+    };
+    const auto length = [&](int k) { return row(k).norm(); };
+    const auto terms = [&](int k) { return size[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])]; };
     for (int k = both_->count_kept; k < both_->count; ++k) {
-        const int node = nodes[static_cast<std::size_t>(k)];
-        double row = 0;  // the terms may all be zero, and their rounding is that of the coordinates
-        for (std::size_t i = 0; i < state.q.size(); ++i)
-            row +=
-                std::abs(value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k) * state.q.size() + i])]);
-        const double misfit = std::abs(value[static_cast<std::size_t>(node)]);
+        const double misfit = std::abs(value[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])]);
         const bool nearly = both_->constraints[static_cast<std::size_t>(k)].nearly.has_value();
-        const auto terms = [&](int other) {
-            return size[static_cast<std::size_t>(nodes[static_cast<std::size_t>(other)])];
-        };
-        if (misfit > (nearly ? looser_near * tolerance::nearly_dependent_row * size_of_such(k, terms)
-                             : looser * tolerance::initial_values * (terms(k) + row * size_of(state.q))))
+        // The terms may all be zero, and their rounding is that of the coordinates.
+        if (misfit >
+            (nearly ? looser_near * tolerance::nearly_dependent_row *
+                          scale_of_row(both_->constraints, k, length, terms)
+                    : looser * tolerance::initial_values * (terms(k) + row(k).lpNorm<1>() * size_of(state.q))))
             refuse(k, misfit);
     }
 }
@@ -150,7 +145,8 @@ void LeftOut::check_position(const State<double>& state) const {
 void LeftOut::check_row(const State<double>& state) const {
     const Program& p = both_->program;
     const std::vector<double> value = interpret(p, state), sizes = sizes_of_terms(p, state);
-    const std::vector<int> rows = p.nodes_of(Group::row), rates = p.nodes_of(Group::velocity);
+    const std::vector<int> rows = p.nodes_of(Group::row), rates = p.nodes_of(Group::velocity),
+                           positions = p.nodes_of(Group::position);
     const auto n = static_cast<Eigen::Index>(state.q.size());
     Eigen::MatrixXd A(both_->count, n);
     Eigen::VectorXd drift(both_->count), size(both_->count);
@@ -172,7 +168,11 @@ void LeftOut::check_row(const State<double>& state) const {
         const double apart = (row.transpose() - kept.transpose() * share).norm();
         if (both_->constraints[static_cast<std::size_t>(k)].nearly) {
             const auto length = [&](int other) { return A.row(other).norm(); };
-            if (apart > looser_near * tolerance::nearly_dependent_row * size_of_such(static_cast<int>(k), length))
+            const auto terms = [&](int other) {
+                return sizes[static_cast<std::size_t>(positions[static_cast<std::size_t>(other)])];
+            };
+            if (apart > looser_near * tolerance::nearly_dependent_row *
+                            scale_of_row(both_->constraints, static_cast<int>(k), length, terms))
                 refuse(static_cast<int>(k), apart);
             continue;
         }

@@ -10,7 +10,6 @@
 /// `assemble` checks this for one state. Who gives other values without it (a sweep, a chart, a branch) does so
 /// here.
 
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -53,8 +52,6 @@ private:
     bool move_onto_kept(Start& start) const;
     void check_position(const State<double>& state) const;
     void check_row(const State<double>& state) const;
-    /// The largest of these sizes of rows of the same joint that shift, or turn (then 1 at least), as row k does.
-    double size_of_such(int k, const std::function<double(int)>& size) const;
     [[noreturn]] void refuse(int constraint, double misfit) const;
 
     std::optional<Both> both_;  ///< nothing if nothing was left out

@@ -85,24 +85,18 @@ private:
 
     double scale(Eigen::Index k) const { return scales_.empty() ? 1 : scales_[static_cast<std::size_t>(k)]; }
 
-    /// Rows that turn have the size 1, those that shift the length of the longest lever, others their own.
     void set_scales() {
         const ScaledRows rows = at(start_.state());
         const std::vector<double> sizes = sizes_of_terms(program_, start_.state());
         const std::vector<int> positions = program_.nodes_of(Group::position);
-        double lever = 0, length = 0;
-        for (std::size_t k = 0; k < positions.size(); ++k) {
-            if (!m_.constraints[k].joint || m_.constraints[k].turns) continue;
-            lever = std::max(lever, rows.A.row(static_cast<Eigen::Index>(k)).norm());
-            length = std::max(length, sizes[static_cast<std::size_t>(positions[k])]);
-        }
-        if (!(lever > near * length)) lever = length;
-        for (std::size_t k = 0; k < positions.size(); ++k) {
-            const Mechanism::Constraint& c = m_.constraints[k];
-            const double own = rows.A.row(static_cast<Eigen::Index>(k)).norm();
-            const double size = !c.joint ? own : c.turns ? std::max(1.0, own) : lever;
-            scales_.push_back(size > 0 && std::isfinite(size) ? size : 1);
-        }
+        const auto row = [&](int k) { return rows.A.row(k).norm(); };
+        const auto terms = [&](int k) {
+            return sizes[static_cast<std::size_t>(positions[static_cast<std::size_t>(k)])];
+        };
+        std::vector<double> scales;
+        for (int k = 0; k < static_cast<int>(positions.size()); ++k)
+            scales.push_back(scale_of_row(m_.constraints, k, row, terms));
+        scales_ = std::move(scales);
     }
 
     /// Moves the guesses until the rows hold that are no rests.
@@ -139,25 +133,13 @@ private:
         return result;
     }
 
-    /// What the rows that are kept before each of these leave of it: others are kept at any rate.
+    /// What the rows that are kept before each leave of it; those that are no candidates come first.
     std::vector<double> rests(const Eigen::MatrixXd& A, const std::vector<int>& candidates) const {
-        std::vector<double> result(static_cast<std::size_t>(A.rows()), 1);
-        std::vector<Eigen::RowVectorXd> basis;
-        const auto look_at = [&](int k, bool may_go) {
-            Eigen::RowVectorXd row = A.row(k);
-            for (int round = 0; round < 2; ++round)
-                for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-            const double rest = row.norm();
-            if (may_go) result[static_cast<std::size_t>(k)] = rest;
-            if (rest > near) basis.push_back(row / rest);
-        };
-        const auto is_candidate = [&](int k) {
-            return std::find(candidates.begin(), candidates.end(), k) != candidates.end();
-        };
+        std::vector<int> order;
         for (int k = 0; k < static_cast<int>(A.rows()); ++k)
-            if (!is_candidate(k)) look_at(k, false);
-        for (const int k : candidates) look_at(k, true);
-        return result;
+            if (std::find(candidates.begin(), candidates.end(), k) == candidates.end()) order.push_back(k);
+        order.insert(order.end(), candidates.begin(), candidates.end());
+        return rests_of_rows(A, order, [](int, double rest) { return rest > near; });
     }
 
     /// Those of the candidates that are rests at this state. A row that follows but for rounding, and holds, is
@@ -199,6 +181,20 @@ private:
 };
 
 }  // namespace
+
+double scale_of_row(const std::vector<Mechanism::Constraint>& constraints, int k,
+                    const std::function<double(int)>& row, const std::function<double(int)>& terms) {
+    const Mechanism::Constraint& one = constraints[static_cast<std::size_t>(k)];
+    double size = one.turns ? 1 : 0, length = 0;
+    for (int other = 0; other < static_cast<int>(constraints.size()); ++other) {
+        const Mechanism::Constraint& c = constraints[static_cast<std::size_t>(other)];
+        if (one.joint ? c.joint != one.joint || c.turns != one.turns : other != k) continue;
+        size = std::max(size, row(other));
+        length = std::max(length, terms(other));
+    }
+    if (one.joint && !(size > tolerance::nearly_dependent_row * length)) size = length;
+    return size > 0 && std::isfinite(size) ? size : 1;
+}
 
 Mechanism without_nearly_redundant(Mechanism m) {
     if (std::none_of(m.constraints.begin(), m.constraints.end(),

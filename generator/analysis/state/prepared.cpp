@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "analysis/state/given_inputs.hpp"
 #include "analysis/state/inertia_check.hpp"
 #include "analysis/state/likely_mistakes.hpp"
 #include "analysis/state/nearly_redundant.hpp"
@@ -96,7 +97,8 @@ std::vector<Diagnostic> warnings_of_moving_places(const Prepared& p) {
 
 }  // namespace
 
-Prepared prepared(Scene scene, const Overrides& at, bool on_sheets, Coordinates coordinates) {
+Prepared prepared(Scene scene, const Overrides& given, bool on_sheets, Coordinates coordinates) {
+    const Overrides at = with_inputs_given(scene, given);
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     result.warn(result.scene.warnings);
     OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};

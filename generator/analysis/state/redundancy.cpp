@@ -23,18 +23,14 @@ namespace {
 
 constexpr int states = 8;
 
-/// Marks the rows that are combinations of those before them in `order` (Gram-Schmidt, twice).
+/// Marks the rows that are combinations of those before them in `order`.
 std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order, double least) {
     std::vector<bool> result(order.size());
-    std::vector<Eigen::RowVectorXd> basis;
-    for (const int k : order) {
-        Eigen::RowVectorXd row = A.row(k);
-        const double size = row.norm();
-        for (int round = 0; round < 2; ++round)
-            for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-        result[k] = !(row.norm() > least * size && size > tolerance::vanished_row * A.norm());
-        if (!result[k]) basis.push_back(row.normalized());
-    }
+    rests_of_rows(A, order, [&](int k, double rest) {
+        const double size = A.row(k).norm();
+        result[static_cast<std::size_t>(k)] = !(rest > least * size && size > tolerance::vanished_row * A.norm());
+        return !result[static_cast<std::size_t>(k)];
+    });
     return result;
 }
 
@@ -53,6 +49,21 @@ std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::Matri
 }
 
 }  // namespace
+
+std::vector<double> rests_of_rows(const Eigen::MatrixXd& A, const std::vector<int>& order,
+                                  const std::function<bool(int k, double rest)>& keeps) {
+    std::vector<double> result(static_cast<std::size_t>(A.rows()));
+    std::vector<Eigen::RowVectorXd> basis;
+    for (const int k : order) {
+        Eigen::RowVectorXd row = A.row(k);
+        for (int round = 0; round < 2; ++round)
+            for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
+        const double rest = row.norm();
+        result[static_cast<std::size_t>(k)] = rest;
+        if (keeps(k, rest)) basis.push_back(row / rest);
+    }
+    return result;
+}
 
 std::vector<int> redundant_constraints(const Mechanism& mechanism, double least) {
     if (constraints_are_open(mechanism)) return redundant_constraints(with_sample_functions(mechanism), least);

@@ -5,6 +5,8 @@
 ///
 ///     const std::vector<int> extra = redundant_constraints(mechanism);
 
+#include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "alembert/base/tolerances.hpp"
@@ -12,6 +14,11 @@
 #include "program/interpret.hpp"
 
 namespace alembert {
+
+/// What the rows that are kept before each row, in this order, leave of it (Gram-Schmidt, twice); `keeps` is asked
+/// with each rest.
+std::vector<double> rests_of_rows(const Eigen::MatrixXd& A, const std::vector<int>& order,
+                                  const std::function<bool(int k, double rest)>& keeps);
 
 /// The positions (in Mechanism::constraints) of constraints whose row of A is a combination of the rows that are
 /// kept before it. Holonomic constraints come first, then those that are independent at the initial state, each in

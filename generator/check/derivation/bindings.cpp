@@ -8,14 +8,17 @@
 #include <set>
 
 #include "check/derivation/letters.hpp"
+#include "scene/body_points.hpp"
 
 namespace alembert {
 
 namespace {
 
+/// A thing that a letter may speak of, and the point where it is: of a body, its mass centre.
 struct Place3 {
     std::string name;
     bool named = false;
+    std::string point = name;
 };
 
 /// x_C, y_G, r_{cm}: of a mass centre.
@@ -76,11 +79,14 @@ std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
     std::vector<Place3> result = matching(masses, index, !is_counted(scene));
     for (const auto& [mass, thing] : masses_with_parameters(scene))  // v_M of the cart, whose mass is M
         if (mass == index) result = {{thing, true}};
+    for (Place3& place : result) place.point = centre_of(scene, place.name);
     const bool named = !result.empty() && result[0].named;
     if (named && !plain_word(index).empty()) return result;
     std::vector<std::string> points;
     for (const Point& p : scene.points) points.push_back(p.name.text);
-    const std::vector<Place3> others = matching(points, index, false);
+    std::vector<Place3> others = matching(points, index, false);
+    for (Place3& other : others)  // a point that has a body's name is not that mass
+        if (centre_of(scene, other.name) != other.name) other.name.clear();
     const bool is_named =
         std::any_of(points.begin(), points.end(),
                     [&, k = std::size_t{0}](const auto& name) mutable { return names(index, name, k++); });
@@ -123,7 +129,7 @@ std::pair<int, std::string> component_in(const std::string& index, const std::ve
 constexpr const char* axis_names[] = {"ex", "ey", "ez"};
 
 void add_component(std::vector<Binding>& to, const Place3& point, const char* vector, int axis) {
-    const std::string text = fmt::format("dot({}({}),{}(N))", vector, point.name, axis_names[axis]);
+    const std::string text = fmt::format("dot({}({}),{}(N))", vector, point.point, axis_names[axis]);
     to.push_back({.text = text, .named = point.named, .reversed = false, .point = point.name});
     to.push_back({.text = "-" + text, .named = point.named, .reversed = true, .point = point.name});
 }
@@ -175,7 +181,7 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
             if (component >= 0)
                 add_component(result, point, vector, component);
             else
-                result.push_back({.text = fmt::format("sqrt(dot({0}({1}),{0}({1})))", vector, point.name),
+                result.push_back({.text = fmt::format("sqrt(dot({0}({1}),{0}({1})))", vector, point.point),
                                   .named = point.named,
                                   .point = point.name});
         }
@@ -202,7 +208,7 @@ std::vector<Binding> other_axes_of(const Letter& letter, const Scene& scene) {
     for (const Place3& point : points_for(letter.index, scene))
         for (const std::string& frame : frames)
             for (const char* const axis : axis_names)
-                result.push_back({.text = fmt::format("dot(pos({}),{}({}))", point.name, axis, frame)});
+                result.push_back({.text = fmt::format("dot(pos({}),{}({}))", point.point, axis, frame)});
     return result;
 }
 
@@ -217,7 +223,7 @@ std::vector<VectorBinding> vector_bindings_of(const Letter& letter, const Scene&
     for (const Place3& point : points_for(letter.index, scene)) {
         VectorBinding binding{.component = {}, .named = point.named, .point = point.name};
         for (int axis = 0; axis < 3; ++axis)
-            binding.component[axis] = fmt::format("dot({}({}),{}(N))", vector, point.name, axis_names[axis]);
+            binding.component[axis] = fmt::format("dot({}({}),{}(N))", vector, point.point, axis_names[axis]);
         result.push_back(std::move(binding));
     }
     return result;

@@ -14,23 +14,13 @@
 
 namespace alembert {
 
-namespace {
-
-/// The rows of sudden times, and of those next to them, in which the motion does not yet show what has begun.
 std::vector<std::string> quick_rows(const std::vector<QuickTime>& quick) {
-    constexpr int shown_after = 8;
     std::vector<std::string> rows;
-    int left = 0;
-    for (const QuickTime& q : quick) {
-        left = q.enter == 0 ? shown_after : left - 1;
-        if (left > 0)
-            rows.push_back(fmt::format("    {{{}, {}, {}, {}}}", shortest(q.from), shortest(q.to),
-                                       shortest(q.enter), shortest(q.step)));
-    }
+    for (const QuickTime& q : quick)
+        rows.push_back(fmt::format("    {{{}, {}, {}, {}}}", shortest(q.from), shortest(q.to), shortest(q.enter),
+                                   shortest(q.step)));
     return rows;
 }
-
-}  // namespace
 
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language) {
     const Vocabulary words(program);

@@ -12,6 +12,7 @@
 #include "present/report/page_files.hpp"
 #include "present/report/page_parts.hpp"
 #include "present/report/shown_unit.hpp"
+#include "program/lower/quick_times.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {
@@ -134,6 +135,7 @@ private:
             holonomic.push_back(c.position.has_value());
         live["redundant"] = e_.mechanism.redundant.size();
         live["own_speeds"] = !p_.speeds.empty();
+        live["quick"] = quick();
         for (std::size_t k = 0; k < state_.size(); ++k)
             live["guessed"].push_back(k < n() ? m_.q_is_guess[k]
                                               : !p_.speeds.empty() || m_.qdot_is_guess[k - n()]);
@@ -154,6 +156,27 @@ private:
             {"small", say("The motion ends here: the steps have become too small.")},
             {"long", say("The motion ends here: it has become too long for a page.")},
             {"apart", say("With this number the constraints cannot be obeyed.")}};
+    }
+
+    /// The sudden times of inputs, the parameters that they follow, and the longest step where these have others.
+    Json quick() const {
+        const double duration =
+            all_.motion.value->run.rows.rows() > 0
+                ? all_.motion.value->run.rows.at(all_.motion.value->run.rows.rows() - 1, 0) - t_
+                : 0;
+        const std::vector<double> parameters = start_of(e_.mechanism).parameters;
+        Json result{{"rows", Json::array()}, {"follow", Json::array()}, {"least", 0}};
+        double least = HUGE_VAL;
+        for (const QuickTime& q : sudden_times(quick_times(p_, parameters, t_, t_ + duration))) {
+            result["rows"].push_back({q.from, q.to, q.enter, q.step});
+            least = std::min(least, q.step);
+        }
+        constexpr double most_steps = 2e4;  // a page answers in a second
+        if (std::isfinite(least)) result["least"] = std::max(least, duration / most_steps);
+        const std::vector<bool> follow = parameters_of_inputs(p_, parameters.size());
+        for (std::size_t k = 0; k < follow.size(); ++k)
+            if (follow[k]) result["follow"].push_back({k, parameters[k]});
+        return result;
     }
 
     double size_of_figure() const {

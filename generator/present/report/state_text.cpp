@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "present/report/state_text.hpp"
 
+#include <cln/integer_io.h>
 #include <cln/rational.h>
 #include <cln/rational_io.h>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <sstream>
 #include <string_view>
 
 namespace alembert {
@@ -28,12 +30,24 @@ double number_of(const std::string& value) {
     return is_fraction(value) ? cln::double_approx(cln::cl_RA(value.c_str())) : std::stod(value);
 }
 
+/// "1.234e+812" of a number beyond the range of double precision.
+std::string four_digits_of_large(const std::string& value) {
+    const cln::cl_RA number = value.c_str();
+    std::ostringstream written;
+    written << cln::round1(cln::abs(number));
+    const std::string digits = written.str();
+    return fmt::format("{}{}.{}e+{}", cln::minusp(number) ? "-" : "", digits[0], digits.substr(1, 3),
+                       digits.size() - 1);
+}
+
 /// "1.05" of 21/20.
 WrittenNumber four_digits(const std::string& value) {
     const bool is_whole = value.find_first_of("./e") == std::string::npos;
     const std::size_t short_enough = is_whole ? 12 : 7;
     if (value.size() <= short_enough && value.find('/') == std::string::npos) return {value};
-    const std::string text = fmt::format("{:.4g}", number_of(value));
+    const double number = number_of(value);
+    if (!std::isfinite(number) && is_fraction(value)) return {four_digits_of_large(value), false};
+    const std::string text = fmt::format("{:.4g}", number);
     if (!is_fraction(value) || !is_fraction(text.substr(text.find('.') + 1))) return {text, false};
     const std::size_t point = text.find('.');
     const std::size_t decimals = point == std::string::npos ? 0 : text.size() - point - 1;

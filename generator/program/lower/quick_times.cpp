@@ -232,6 +232,17 @@ std::vector<QuickTime> quick_times(const Program& program, const std::vector<dou
     return Search(program, std::move(inputs), parameters, start, end).go();
 }
 
+std::vector<QuickTime> sudden_times(const std::vector<QuickTime>& quick) {
+    constexpr int shown_after = 8;
+    std::vector<QuickTime> result;
+    int left = 0;
+    for (const QuickTime& q : quick) {
+        left = q.enter == 0 ? shown_after : left - 1;
+        if (left > 0) result.push_back(q);
+    }
+    return result;
+}
+
 std::vector<bool> parameters_of_inputs(const Program& program, std::size_t count) {
     std::vector<bool> used(count);
     for (const int id : program.needed(inputs_of(program)))

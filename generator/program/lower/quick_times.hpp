@@ -30,6 +30,10 @@ namespace alembert {
 std::vector<QuickTime> quick_times(const Program& program, const std::vector<double>& parameters, double start,
                                    double end);
 
+/// The sudden ones, and those next to them in which the motion does not yet show what has begun: what a step
+/// control needs that sees everything else by itself.
+std::vector<QuickTime> sudden_times(const std::vector<QuickTime>& quick);
+
 /// The parameters on which these times depend: one flag for each independent one of Program::parameters.
 std::vector<bool> parameters_of_inputs(const Program& program, std::size_t count);
 

@@ -8,6 +8,7 @@
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
 #include "program/lower/lower.hpp"
+#include "scene/body_points.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -34,12 +35,11 @@ std::vector<std::string> names_in(const Scene& scene, bool frames) {
     if (frames) {
         names.emplace_back("N");
         for (const Frame& f : scene.frames) names.push_back(f.name.text);
-    } else {
-        names.emplace_back("O");
-        for (const Point& p : scene.points) names.push_back(p.name.text);
-        for (const Particle& p : scene.particles) names.push_back(p.name.text);
+        for (const Body& b : scene.bodies) names.push_back(b.name.text);
+        return names;
     }
-    for (const Body& b : scene.bodies) names.push_back(frames ? b.name.text : b.point().text);
+    names.emplace_back("O");
+    for (std::string& name : points_of(scene)) names.push_back(std::move(name));
     return names;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alembert/base/argument.hpp"
@@ -111,10 +112,24 @@ Possible<Start> Starts::possible(const std::vector<double>& values) const {
     return start;
 }
 
+namespace {
+
+/// Whether the mechanism was built with this number for an input (analysis/state/given_inputs.hpp).
+bool has_input_given(const Mechanism& m, const std::string& name, double value) {
+    return std::any_of(m.inputs.begin(), m.inputs.end(), [&](const Mechanism::Input& input) {
+        if (input.derivative[0].get_name() != name) return false;
+        const GiNaC::ex number = m.z->expand(input.value);
+        return GiNaC::is_a<GiNaC::numeric>(number) && GiNaC::ex_to<GiNaC::numeric>(number).to_double() == value;
+    });
+}
+
+}  // namespace
+
 Start start_of(const Mechanism& m, const Overrides& overrides) {
     std::vector<std::string> names;
     std::vector<double> values;
     for (const auto& [name, value] : overrides) {
+        if (has_input_given(m, name, value)) continue;
         names.push_back(name);
         values.push_back(value);
     }

@@ -65,8 +65,9 @@ private:
 };
 
 /// Initial values that depend on parameters are computed from the replaced ones. A name is a parameter's, a
-/// coordinate's, a rate's (`theta1'`), a generalized speed's or `t`. Throws ModelError for any other, with the
-/// nearest known name, for a parameter that is defined by others, and for a value that is not finite.
+/// coordinate's, a rate's (`theta1'`), a generalized speed's or `t`, or that of an input that has this number
+/// already (`prepared`). Throws ModelError for any other, with the nearest known name, for a parameter that is
+/// defined by others, and for a value that is not finite.
 Start start_of(const Mechanism& mechanism, const Overrides& overrides = {});
 
 }  // namespace alembert

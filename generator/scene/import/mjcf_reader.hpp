@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A file of MuJoCo while it becomes a robot. mjcf.cpp reads the tree of bodies, mjcf_actions.cpp what acts on it
-/// and what ties it together; only these two use this.
+/// A file of MuJoCo while it becomes a robot. mjcf.cpp reads the tree of bodies, mjcf_actions.cpp and
+/// mjcf_motors.cpp what acts on it and what ties it together; only these use this.
 
 #include <map>
 #include <set>
@@ -51,7 +51,7 @@ private:
     /// The joints, shapes and inertias of a body, also those inside <frame>s.
     void gather(const XmlElement& e, const RobotPlace& offset, std::vector<MjcfPart>& parts);
 
-    // mjcf_actions.cpp: motors, springs, tendons, equalities
+    // mjcf_actions.cpp: springs, tendons, equalities, states; mjcf_motors.cpp: motors
     bool is_off(const char* what) const { return disabled_.contains(what); }
     /// Equalities, limits and dry friction, which MuJoCo counts as constraints.
     bool is_off_constraint(const char* what) const { return is_off(what) || is_off("constraint"); }
@@ -72,7 +72,8 @@ private:
         std::vector<double> gain{1}, bias{0, 0, 0};
         std::string dynamics = "none", gain_type = "fixed", bias_type = "none";
         bool is_known = true;
-        bool is_affine() const { return bias_type == "affine" || bias_type == "none"; }
+        /// Whether it is a constant gain and a bias that is affine in length and rate, in numbers that are known.
+        bool is_affine() const;
     };
     Law law_of(const XmlElement& e);
     void change_law(const XmlElement& e, Law& law);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/base/tolerances.hpp"
 #include "base/language/say.hpp"
 #include "scene/import/scene_writer.hpp"
 #include "scene/text.hpp"
@@ -107,8 +108,8 @@ RobotPose SceneWriter::start_of(const Robot::Joint& joint) const {
     if (q.size() < 4 || std::isnan(q[0])) return joint.start;
     const std::size_t e = q.size() - 4;
     const Eigen::Quaterniond turn(q[e], q[e + 1], q[e + 2], q[e + 3]);
-    if (turn.norm() == 0) return joint.start;
-    RobotPlace place{Real3::Zero(), turn.normalized().toRotationMatrix()};
+    RobotPlace place;  // MuJoCo reads a zero quaternion as no turn
+    if (turn.norm() != 0) place.R = turn.normalized().toRotationMatrix();
     if (e > 0) place.shift = {q[0], q[1], q[2]};
     return place.pose();
 }
@@ -128,6 +129,11 @@ std::vector<double> SceneWriter::rates_of(const Robot::Joint* of, const RobotPos
         return u;
     }
     const double roll = start.rpy[0], pitch = start.rpy[1];
+    if (std::abs(std::cos(pitch)) < tolerance::gimbal_lock && !w.isZero(0))
+        throw ModelError(
+            say("state {} starts joint {} with a turning at a pitch of {:.6g} deg, where yaw and roll turn about "
+                "the same line, and no rates of them give it; --quaternion turns it by a quaternion",
+                in_quotes(keyframe_->name), in_quotes(of->name), pitch * 180 / M_PI));
     const double yaw_rate = (w[1] * std::sin(roll) + w[2] * std::cos(roll)) / std::cos(pitch);
     u.insert(u.end(),
              {yaw_rate, w[1] * std::cos(roll) - w[2] * std::sin(roll), w[0] + yaw_rate * std::sin(pitch)});

@@ -84,6 +84,13 @@ private:
     /// proposal of SDF 1.9, "Merge include").
     void merge(XmlElement& around, XmlElement& model) {
         const std::string own = model.Attribute("name") == nullptr ? "" : model.Attribute("name");
+        const auto is_static = [](const XmlElement& e) {
+            const std::string word = inside(e, "static");
+            return word == "true" || word == "1";
+        };
+        // Links of one model stand or move together.
+        if (is_static(model) && !is_static(around))
+            file_.drop(say("<static> of a model that is merged into one that moves"), own, Robot::Effect::motion);
         const std::string name = "_merged__" + own + "__model__";
         XmlElement* const frame = model.GetDocument()->NewElement("frame");
         frame->SetAttribute("name", name.c_str());
@@ -127,7 +134,9 @@ private:
             if (pose->Attribute("relative_to") == nullptr) pose->SetAttribute("relative_to", frame.c_str());
         }
         replaced(part, "attached_to");
-        replace_below(part, frame);
+        if (tag != "model") return replace_below(part, frame);
+        // Inside a model that is nested, __model__ is that one; only where it stands is said in terms of this one.
+        replaced(*part.FirstChildElement("pose"), "relative_to");
     }
 
     static void replace_below(XmlElement& e, const std::string& frame) {

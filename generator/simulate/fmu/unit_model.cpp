@@ -6,6 +6,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
+#include "program/lower/quick_times.hpp"
 #include "program/switches.hpp"
 #include "program/tangent.hpp"
 #include "simulate/first_accelerations.hpp"
@@ -92,6 +93,9 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     model.start = state_of(start, model.mechanism, model.equations);
     model.tied = tied_parameters(model.mechanism, start);
     need_accelerations(model, program, model.start);
+    model.quick_times =
+        sudden_times(quick_times(program, model.start.parameters, start.t, start.t + start.duration));
+    model.times_follow = parameters_of_inputs(program, program.parameters.size());
     add_impulses(program, model);
     complete(model, std::move(program));
     model.start.parameters.resize(model.program.parameters.size(), 1);

@@ -12,6 +12,7 @@
 
 #include <optional>
 
+#include "alembert/ode/input_time_scales.hpp"
 #include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
 #include "program/motion_system.hpp"
@@ -30,6 +31,10 @@ struct UnitModel : Derived {
     std::vector<bool> tied =
         {};  ///< of the first parameters, those that keep their values (analysis/state/left_out.hpp)
     double duration = 0, tolerance = 0, sample = 0;
+    /// Until the end of the duration, for these values of the parameters; and which of the scene's own they
+    /// follow.
+    std::vector<QuickTime> quick_times = {};
+    std::vector<bool> times_follow = {};
 
     std::size_t coordinates() const { return program.coordinates.size(); }
     std::size_t speeds() const { return speeds_of(program); }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
@@ -11,6 +12,7 @@
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/projection_text.hpp"
 #include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/standalone.hpp"
 #include "codegen/emit/templates.hpp"
 #include "codegen/emit/vocabulary.hpp"
 
@@ -73,6 +75,28 @@ std::string shown_inputs(const UnitModel& model) {
     return result;
 }
 
+/// The sudden times of inputs, and the values of parameters for which they were found. Where others are set, and
+/// after the duration of the scene, steps are as short everywhere as the shortest there, but for a bound of their
+/// number.
+void add_quick_times(kainjow::mustache::data& file, const UnitModel& model) {
+    constexpr double most_steps = 1e5;
+    const std::vector<QuickTime>& quick = model.quick_times;
+    file.set("has_quick", !quick.empty());
+    if (quick.empty()) return;
+    file.set("quick_times", std::to_string(quick.size()));
+    file.set("quick", fmt::format("{}", fmt::join(quick_rows(quick), ",\n")));
+    double least = HUGE_VAL;
+    for (const QuickTime& q : quick) least = std::min(least, q.step);
+    file.set("quick_least", shortest(std::max(least, model.duration / most_steps)));
+    file.set("quick_end", shortest(model.start.t + model.duration));
+    std::vector<std::string> follow;
+    for (std::size_t k = 0; k < std::min(model.times_follow.size(), model.own_parameters()); ++k)
+        if (model.times_follow[k])
+            follow.push_back(fmt::format("{{{}, {}}}, ", k, shortest(model.start.parameters[k])));
+    file.set("quick_follow_count", std::to_string(follow.size()));
+    file.set("quick_follow", fmt::format("{}", fmt::join(follow, "")));
+}
+
 }  // namespace
 
 SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& variables, int version,
@@ -107,6 +131,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     file.set("has_clocks", !model.clocks.empty());
     file.set("clock_rows", list_of(clocks_of(model)));
     file.set("shown_inputs", shown_inputs(model));
+    add_quick_times(file, model);
     std::string initial;
     for (const auto* part : {&model.start.q, &model.start.qdot})
         for (const double x : *part) initial += shortest(x) + ", ";

@@ -24,7 +24,7 @@ std::string parent_of(const std::string& name, const Scene& scene) {
 /// The turns that lead from one frame to another.
 class TurnWriter {
 public:
-    TurnWriter(FrameKinematics& f, Places& places, const VectorWriter& write)
+    TurnWriter(FrameKinematics& f, Places& places, VectorWriter& write)
         : f_(f), places_(places), write_(write), parent_(places.orientation(f.parent).frame) {}
 
     void write(bool steps) {
@@ -79,7 +79,7 @@ private:
 
     FrameKinematics& f_;
     Places& places_;
-    const VectorWriter& write_;
+    VectorWriter& write_;
     const int parent_;
     Orientation reached_;   // against the parent
     bool is_plain_ = true;  // it is known: no quaternion so far
@@ -96,8 +96,8 @@ std::vector<std::string> frames_and_bodies(const Scene& scene) {
     return names;
 }
 
-FrameKinematics frame_kinematics(const std::string& name, const Scene& scene, Places& places,
-                                 const VectorWriter& write, bool steps) {
+FrameKinematics frame_kinematics(const std::string& name, const Scene& scene, Places& places, VectorWriter& write,
+                                 bool steps) {
     FrameKinematics f{.name = name};
     for (const Body& body : scene.bodies)
         if (body.name.text == name) {

@@ -12,7 +12,7 @@ namespace alembert {
 std::vector<std::string> frames_and_bodies(const Scene& scene);
 
 /// Without values. The name is one of these.
-FrameKinematics frame_kinematics(const std::string& name, const Scene& scene, Places& places,
-                                 const VectorWriter& write, bool steps);
+FrameKinematics frame_kinematics(const std::string& name, const Scene& scene, Places& places, VectorWriter& write,
+                                 bool steps);
 
 }  // namespace alembert

@@ -17,10 +17,10 @@
 #include "model/formulas.hpp"
 #include "program/lower/frame_functions.hpp"
 #include "program/lower/lower.hpp"
+#include "scene/body_points.hpp"
 #include "scene/text.hpp"
 #include "simulate/evaluate.hpp"
 #include "simulate/given_accelerations.hpp"
-#include "simulate/given_inputs.hpp"
 #include "simulate/kinematics/frames.hpp"
 #include "simulate/kinematics/points.hpp"
 
@@ -32,7 +32,7 @@ namespace {
 
 void check_names(const std::vector<std::string>& asked, const Scene& scene) {
     std::vector<std::string> known = frames_and_bodies(scene);
-    for (const std::string& point : points_and_masses(scene))
+    for (const std::string& point : points_of(scene))
         if (std::find(known.begin(), known.end(), point) == known.end()) known.push_back(point);
     if (known.empty())
         throw ModelError(
@@ -185,9 +185,7 @@ void find_jacobians(SceneKinematics& s, const State<double>& state) {
 
 }  // namespace
 
-SceneKinematics kinematics(Scene scene, const KinematicsOptions& wishes) {
-    KinematicsOptions options = wishes;
-    options.at = with_inputs_given(scene, wishes.at);
+SceneKinematics kinematics(Scene scene, const KinematicsOptions& options) {
     const Overrides at = without_accelerations(options.at);
     SceneKinematics s{prepared(std::move(scene), at, false, Coordinates::optional)};
     check_names(options.of, s.scene);
@@ -203,12 +201,12 @@ SceneKinematics kinematics(Scene scene, const KinematicsOptions& wishes) {
     find_accelerations(s, options, start.state());
 
     Formulas formulas(s.scene, s.mechanism);
-    const VectorWriter write(s.mechanism);
+    VectorWriter write(s.mechanism);
     for (const std::string& name : frames_and_bodies(s.scene))
         if (is_wanted(name))
             s.frames.push_back(frame_kinematics(name, s.scene, formulas.places(), write, options.steps));
     PointWriter point(s.scene, formulas.places(), write);
-    for (const std::string& name : points_and_masses(s.scene))
+    for (const std::string& name : points_of(s.scene))
         if (is_wanted(name)) s.points.push_back(point(name, options.steps));
     evaluate_entries(s, start.state());
     if (options.jacobian) find_jacobians(s, start.state());

@@ -5,19 +5,12 @@
 
 #include <algorithm>
 
+#include "scene/body_points.hpp"
 #include "simulate/kinematics/frames.hpp"
 
 namespace alembert {
 
-std::vector<std::string> points_and_masses(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const Point& p : scene.points) names.push_back(p.name.text);
-    for (const Particle& p : scene.particles) names.push_back(p.name.text);
-    for (const Body& b : scene.bodies) names.push_back(b.point().text);
-    return names;
-}
-
-PointWriter::PointWriter(const Scene& scene, Places& places, const VectorWriter& write)
+PointWriter::PointWriter(const Scene& scene, Places& places, VectorWriter& write)
     : scene_(scene), places_(places), write_(write) {
     named_[0] = "N";
     for (const std::string& name : frames_and_bodies(scene)) named_.emplace(places.orientation(name).frame, name);
@@ -31,15 +24,13 @@ const Position* PointWriter::place_of(const std::string& name) const {
     };
     if (const Position* place = find(scene_.points)) return place;
     if (const Position* place = find(scene_.particles)) return place;
-    for (const Body& body : scene_.bodies)
-        if (body.point().text == name) return body.joint ? nullptr : &body.position;
-    return nullptr;
+    const Body* const body = body_at(scene_, name);
+    return body == nullptr || body->joint ? nullptr : &body->position;
 }
 
 const Joint* PointWriter::joint_of(const std::string& name) const {
-    for (const Body& body : scene_.bodies)
-        if (body.point().text == name && body.joint) return &scene_.joints[*body.joint];
-    return nullptr;
+    const Body* const body = body_at(scene_, name);
+    return body != nullptr && body->joint ? &scene_.joints[*body->joint] : nullptr;
 }
 
 PointWriter::Moving PointWriter::along_N(const std::string& name) {

@@ -10,12 +10,9 @@
 
 namespace alembert {
 
-/// Names of all points, particles and mass centres, O left out.
-std::vector<std::string> points_and_masses(const Scene& scene);
-
 class PointWriter {
 public:
-    PointWriter(const Scene& scene, Places& places, const VectorWriter& write);
+    PointWriter(const Scene& scene, Places& places, VectorWriter& write);
 
     /// Without values. The name is one of these.
     PointKinematics operator()(const std::string& name, bool steps);
@@ -32,7 +29,7 @@ private:
 
     const Scene& scene_;
     Places& places_;
-    const VectorWriter& write_;
+    VectorWriter& write_;
     std::map<int, std::string> named_;  ///< frames of the skeleton
 };
 

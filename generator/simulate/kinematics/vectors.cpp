@@ -13,13 +13,13 @@ constexpr int most_long_ones = 30;
 
 }  // namespace
 
-KinematicVector VectorWriter::operator()(const Vector3& v) const {
+KinematicVector VectorWriter::operator()(const Vector3& v) {
     KinematicVector result;
     for (std::size_t k = 0; k < 3; ++k) result[k] = {.expression = v[k], .formula = formula(v[k])};
     return result;
 }
 
-KinematicVector VectorWriter::derivative(const Vector3& v, const KinematicVector& before) const {
+KinematicVector VectorWriter::derivative(const Vector3& v, const KinematicVector& before) {
     KinematicVector result;
     for (std::size_t k = 0; k < 3; ++k) {
         result[k].expression = v[k];
@@ -28,7 +28,7 @@ KinematicVector VectorWriter::derivative(const Vector3& v, const KinematicVector
     return result;
 }
 
-std::optional<Phrase> VectorWriter::formula(const ex& e) const {
+std::optional<Phrase> VectorWriter::formula(const ex& e) {
     const auto f = long_ones_ < most_long_ones ? steps_.normal(e) : steps_.normal(e, 1);
     if (!f || f->size() > most_terms_shown) {
         ++long_ones_;

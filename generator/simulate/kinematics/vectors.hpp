@@ -19,11 +19,11 @@ class VectorWriter {
 public:
     explicit VectorWriter(const Mechanism& mechanism) : m_(mechanism), steps_(mechanism), unit_(mechanism) {}
 
-    KinematicVector operator()(const Vector3& v) const;
+    KinematicVector operator()(const Vector3& v);
     /// The same for the derivative of `before` by time. A component that was too long to be shown before is not
     /// sought for it.
-    KinematicVector derivative(const Vector3& v, const KinematicVector& before) const;
-    std::optional<Phrase> formula(const GiNaC::ex& e) const;
+    KinematicVector derivative(const Vector3& v, const KinematicVector& before);
+    std::optional<Phrase> formula(const GiNaC::ex& e);
 
     /// The time derivative of each component.
     Vector3 rate(const Vector3& v) const;
@@ -42,7 +42,7 @@ private:
     const Mechanism& m_;
     StepWriter steps_;
     UnitQuaternions unit_;
-    mutable int long_ones_ = 0;  ///< formulas sought in vain
+    int long_ones_ = 0;  ///< formulas sought in vain
 };
 
 }  // namespace alembert

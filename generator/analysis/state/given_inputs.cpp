@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "simulate/given_inputs.hpp"
+#include "analysis/state/given_inputs.hpp"
 
 #include <fmt/format.h>
 
