@@ -471,6 +471,7 @@ Program Program::shell() const {
     result.is_textbook = is_textbook;
     result.singular = singular;
     result.friction_on_multipliers = friction_on_multipliers;
+    result.has_norm_terms = has_norm_terms;
     // A copy has about as many nodes; growing in steps would copy each of them with all its lists several times.
     result.nodes_.reserve(nodes_.size());
     result.known_.reserve(nodes_.size());
