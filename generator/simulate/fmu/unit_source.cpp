@@ -111,6 +111,17 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     for (const auto* part : {&model.start.q, &model.start.qdot})
         for (const double x : *part) initial += shortest(x) + ", ";
     file.set("initial", initial);
+    std::string given, guesses;
+    for (std::size_t i = 0; i < model.given.size(); ++i) {
+        given += shortest(model.given[i]) + ", ";
+        guesses += model.is_guess[i] ? "1, " : "0, ";
+    }
+    file.set("given", given);
+    file.set("guesses", guesses);
+    std::string holonomic;
+    for (const Mechanism::Constraint& c : model.mechanism.constraints) holonomic += c.position ? "1, " : "0, ";
+    file.set("holonomic", holonomic);
+    file.set("own_speeds", !p.speeds.empty());
     file.set("start", shortest(model.start.t));
     file.set("tolerance", shortest(model.tolerance));
     file.set("finite", argument::finite);
