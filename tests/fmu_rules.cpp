@@ -100,6 +100,31 @@ TEST_CASE("fmu: start values that an importer sets stay, and others follow the c
         }
 }
 
+TEST_CASE("fmu: scenes may be called as what the sources of units declare") {
+    const std::string body = R"toml([coordinates]
+x = 1
+y = { guess = 2 }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "line"
+holonomic = "y - 2*x"
+[[event]]
+name = "wall"
+when = "x - 5"
+impulses = { x = "-1" }
+)toml";
+    for (const char* const name : {"first", "is", "in", "along", "measure", "scene", "given", "held", "step", "unit"})
+        for (const int version : {2, 3}) {
+            CAPTURE(name);
+            const Unit unit = exported(temporary(fmt::format("{}.toml", name), body), version);
+            Instance one(unit, true);
+            CHECK(begun(one, version) == 0);
+        }
+}
+
 TEST_CASE("fmu: at the start guesses move and what is given stays, as in eval") {
     // The joint at the wrist closes a loop; of the coordinates b and x are guesses.
     const std::string scene = temporary("crank.toml", R"toml(

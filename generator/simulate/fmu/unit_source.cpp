@@ -19,8 +19,9 @@ namespace alembert {
 namespace {
 
 /// In the order of UnitVariable::Kind.
-constexpr const char* kind_names[] = {"is_time", "is_state",  "is_rate",   "is_input",      "is_parameter",
-                                      "is_tied", "is_energy", "is_output", "is_multiplier", "is_event"};
+constexpr const char* kind_names[] = {
+    "time_variable", "state_variable",  "rate_variable",   "input_variable",      "parameter_variable",
+    "tied_variable", "energy_variable", "output_variable", "multiplier_variable", "event_variable"};
 
 std::size_t multipliers_of(const Program& p) {
     return p.nodes_of(Group::multiplier).size();
