@@ -116,7 +116,8 @@ name = "wall"
 when = "x - 5"
 impulses = { x = "-1" }
 )toml";
-    for (const char* const name : {"first", "is", "in", "along", "measure", "scene", "given", "held", "step", "unit"})
+    for (const char* const name :
+         {"first", "is", "in", "along", "measure", "scene", "given", "held", "step", "unit"})
         for (const int version : {2, 3}) {
             CAPTURE(name);
             const Unit unit = exported(temporary(fmt::format("{}.toml", name), body), version);
