@@ -2,8 +2,8 @@
 // The whole way from a scene to its equations and its motion with the installed library, in a program of somebody
 // else: a ball that bounces. Prints the equation of motion in LaTeX, the times of the first two impacts and the
 // estimated error.
-#include <alembert/analysis/derive/derive.hpp>
 #include <alembert/algebra/notation/latex.hpp>
+#include <alembert/analysis/derive/derive.hpp>
 #include <alembert/simulate/simulate.hpp>
 #include <cstdio>
 

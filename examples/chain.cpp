@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A scene that is made by a program: a chain of n rods on a ceiling, let go horizontally. Prints how many operations
-// one evaluation of its equations takes, and by how much a run changes the energy.
-#include <alembert/simulate/simulate.hpp>
+// A scene that is made by a program: a chain of n rods on a ceiling, let go horizontally. Prints how many
+// operations one evaluation of its equations takes, and by how much a run changes the energy.
 #include <alembert/scene/draft.hpp>
+#include <alembert/simulate/simulate.hpp>
 #include <cstdio>
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'bouncing_ball': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit bouncing_ball.toml
+//   alembert emit bouncing_ball.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -33,7 +33,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace bouncing_ball::code {
+namespace bouncing_ball::code_f14169fb {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -176,45 +176,51 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace bouncing_ball::code
+}  // namespace bouncing_ball::code_f14169fb
 #pragma GCC diagnostic pop
 
 namespace bouncing_ball {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
+using code_f14169fb::parameter_values;
+using code_f14169fb::coordinate_names;
+using code_f14169fb::speed_names;
+using code_f14169fb::parameter_names;
+using code_f14169fb::output_names;
+using code_f14169fb::event_names;
+using code_f14169fb::table;
+using code_f14169fb::prepare;
+using code_f14169fb::rhs;
+using code_f14169fb::mass_forcing;
+using code_f14169fb::energy;
+using code_f14169fb::outputs_at;
 }  // namespace bouncing_ball
 
 using namespace bouncing_ball;
 
-// What bouncing_ball.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_prepare(double* par) {
-    bouncing_ball::code::table.prepare(par);
+#ifndef ALEMBERT_bouncing_ball_f14169fb  // once in a unit, however many namespaces include this file
+#define ALEMBERT_bouncing_ball_f14169fb
+// What bouncing_ball.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_prepare_f14169fb(double* par) {
+    bouncing_ball::code_f14169fb::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_rhs(double t, const double* state, const double* par, double* rate) {
-    bouncing_ball::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_rhs_f14169fb(double t, const double* state, const double* par, double* rate) {
+    bouncing_ball::code_f14169fb::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    bouncing_ball::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_mass_forcing_f14169fb(double t, const double* state, const double* par, double* mass, double* forcing) {
+    bouncing_ball::code_f14169fb::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    bouncing_ball::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_energy_f14169fb(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    bouncing_ball::code_f14169fb::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    bouncing_ball::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_outputs_at_f14169fb(double t, const double* state, const double* rate, const double* par, double* out) {
+    bouncing_ball::code_f14169fb::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* bouncing_ball_tables() { return &bouncing_ball::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* bouncing_ball_tables_f14169fb() {
+    return &bouncing_ball::code_f14169fb::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return bouncing_ball::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return bouncing_ball::code_f14169fb::all.solver; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'cart_pole': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit cart_pole.toml
+//   alembert emit cart_pole.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -34,7 +34,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace cart_pole::code {
+namespace cart_pole::code_eb54a64c {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -443,49 +443,55 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace cart_pole::code
+}  // namespace cart_pole::code_eb54a64c
 #pragma GCC diagnostic pop
 
 namespace cart_pole {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
-using code::events_at;
+using code_eb54a64c::parameter_values;
+using code_eb54a64c::coordinate_names;
+using code_eb54a64c::speed_names;
+using code_eb54a64c::parameter_names;
+using code_eb54a64c::output_names;
+using code_eb54a64c::event_names;
+using code_eb54a64c::table;
+using code_eb54a64c::prepare;
+using code_eb54a64c::rhs;
+using code_eb54a64c::mass_forcing;
+using code_eb54a64c::energy;
+using code_eb54a64c::outputs_at;
+using code_eb54a64c::events_at;
 }  // namespace cart_pole
 
 using namespace cart_pole;
 
-// What cart_pole.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void cart_pole_prepare(double* par) {
-    cart_pole::code::table.prepare(par);
+#ifndef ALEMBERT_cart_pole_eb54a64c  // once in a unit, however many namespaces include this file
+#define ALEMBERT_cart_pole_eb54a64c
+// What cart_pole.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_prepare_eb54a64c(double* par) {
+    cart_pole::code_eb54a64c::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void cart_pole_rhs(double t, const double* state, const double* par, double* rate) {
-    cart_pole::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_rhs_eb54a64c(double t, const double* state, const double* par, double* rate) {
+    cart_pole::code_eb54a64c::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void cart_pole_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    cart_pole::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_mass_forcing_eb54a64c(double t, const double* state, const double* par, double* mass, double* forcing) {
+    cart_pole::code_eb54a64c::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void cart_pole_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    cart_pole::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_energy_eb54a64c(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    cart_pole::code_eb54a64c::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void cart_pole_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    cart_pole::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_outputs_at_eb54a64c(double t, const double* state, const double* rate, const double* par, double* out) {
+    cart_pole::code_eb54a64c::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) void cart_pole_events_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    cart_pole::code::table.events_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void cart_pole_events_at_eb54a64c(double t, const double* state, const double* rate, const double* par, double* out) {
+    cart_pole::code_eb54a64c::table.events_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* cart_pole_tables() { return &cart_pole::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* cart_pole_tables_eb54a64c() {
+    return &cart_pole::code_eb54a64c::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return cart_pole::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return cart_pole::code_eb54a64c::all.solver; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'chaplygin_sleigh_in_speeds': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit chaplygin_sleigh_in_speeds.toml
+//   alembert emit chaplygin_sleigh_in_speeds.toml -o .
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -36,7 +36,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace chaplygin_sleigh_in_speeds::code {
+namespace chaplygin_sleigh_in_speeds::code_156154e9 {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -460,54 +460,60 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace chaplygin_sleigh_in_speeds::code
+}  // namespace chaplygin_sleigh_in_speeds::code_156154e9
 #pragma GCC diagnostic pop
 
 namespace chaplygin_sleigh_in_speeds {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
-using code::constraints_at;
-using code::multipliers_at;
+using code_156154e9::parameter_values;
+using code_156154e9::coordinate_names;
+using code_156154e9::speed_names;
+using code_156154e9::parameter_names;
+using code_156154e9::output_names;
+using code_156154e9::event_names;
+using code_156154e9::table;
+using code_156154e9::prepare;
+using code_156154e9::rhs;
+using code_156154e9::mass_forcing;
+using code_156154e9::energy;
+using code_156154e9::outputs_at;
+using code_156154e9::constraints_at;
+using code_156154e9::multipliers_at;
 }  // namespace chaplygin_sleigh_in_speeds
 
 using namespace chaplygin_sleigh_in_speeds;
 
-// What chaplygin_sleigh_in_speeds.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_prepare(double* par) {
-    chaplygin_sleigh_in_speeds::code::table.prepare(par);
+#ifndef ALEMBERT_chaplygin_sleigh_in_speeds_156154e9  // once in a unit, however many namespaces include this file
+#define ALEMBERT_chaplygin_sleigh_in_speeds_156154e9
+// What chaplygin_sleigh_in_speeds.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_prepare_156154e9(double* par) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_rhs(double t, const double* state, const double* par, double* rate) {
-    chaplygin_sleigh_in_speeds::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_rhs_156154e9(double t, const double* state, const double* par, double* rate) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    chaplygin_sleigh_in_speeds::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_mass_forcing_156154e9(double t, const double* state, const double* par, double* mass, double* forcing) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    chaplygin_sleigh_in_speeds::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_energy_156154e9(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    chaplygin_sleigh_in_speeds::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_outputs_at_156154e9(double t, const double* state, const double* rate, const double* par, double* out) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    chaplygin_sleigh_in_speeds::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_constraints_at_156154e9(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    chaplygin_sleigh_in_speeds::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void chaplygin_sleigh_in_speeds_multipliers_at_156154e9(double t, const double* state, const double* par, double* lambda) {
+    chaplygin_sleigh_in_speeds::code_156154e9::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* chaplygin_sleigh_in_speeds_tables() { return &chaplygin_sleigh_in_speeds::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* chaplygin_sleigh_in_speeds_tables_156154e9() {
+    return &chaplygin_sleigh_in_speeds::code_156154e9::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return chaplygin_sleigh_in_speeds::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return chaplygin_sleigh_in_speeds::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return chaplygin_sleigh_in_speeds::code_156154e9::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return chaplygin_sleigh_in_speeds::code_156154e9::all.projection; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'double_pendulum': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit double_pendulum.toml
+//   alembert emit double_pendulum.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -32,7 +32,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace double_pendulum::code {
+namespace double_pendulum::code_aef48e0a {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -432,41 +432,47 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace double_pendulum::code
+}  // namespace double_pendulum::code_aef48e0a
 #pragma GCC diagnostic pop
 
 namespace double_pendulum {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
+using code_aef48e0a::parameter_values;
+using code_aef48e0a::coordinate_names;
+using code_aef48e0a::speed_names;
+using code_aef48e0a::parameter_names;
+using code_aef48e0a::output_names;
+using code_aef48e0a::event_names;
+using code_aef48e0a::table;
+using code_aef48e0a::prepare;
+using code_aef48e0a::rhs;
+using code_aef48e0a::mass_forcing;
+using code_aef48e0a::energy;
 }  // namespace double_pendulum
 
 using namespace double_pendulum;
 
-// What double_pendulum.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_prepare(double* par) {
-    double_pendulum::code::table.prepare(par);
+#ifndef ALEMBERT_double_pendulum_aef48e0a  // once in a unit, however many namespaces include this file
+#define ALEMBERT_double_pendulum_aef48e0a
+// What double_pendulum.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_prepare_aef48e0a(double* par) {
+    double_pendulum::code_aef48e0a::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_rhs(double t, const double* state, const double* par, double* rate) {
-    double_pendulum::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_rhs_aef48e0a(double t, const double* state, const double* par, double* rate) {
+    double_pendulum::code_aef48e0a::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    double_pendulum::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_mass_forcing_aef48e0a(double t, const double* state, const double* par, double* mass, double* forcing) {
+    double_pendulum::code_aef48e0a::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    double_pendulum::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void double_pendulum_energy_aef48e0a(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    double_pendulum::code_aef48e0a::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* double_pendulum_tables() { return &double_pendulum::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* double_pendulum_tables_aef48e0a() {
+    return &double_pendulum::code_aef48e0a::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return double_pendulum::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return double_pendulum::code_aef48e0a::all.solver; }
 #endif

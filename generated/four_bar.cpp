@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'four_bar': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit four_bar.toml
+//   alembert emit four_bar.toml -o .
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -36,7 +36,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace four_bar::code {
+namespace four_bar::code_c46f44f9 {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -671,58 +671,64 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace four_bar::code
+}  // namespace four_bar::code_c46f44f9
 #pragma GCC diagnostic pop
 
 namespace four_bar {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
-using code::gamma_at;
+using code_c46f44f9::parameter_values;
+using code_c46f44f9::coordinate_names;
+using code_c46f44f9::speed_names;
+using code_c46f44f9::parameter_names;
+using code_c46f44f9::output_names;
+using code_c46f44f9::event_names;
+using code_c46f44f9::table;
+using code_c46f44f9::prepare;
+using code_c46f44f9::rhs;
+using code_c46f44f9::mass_forcing;
+using code_c46f44f9::energy;
+using code_c46f44f9::constraints_at;
+using code_c46f44f9::multipliers_at;
+using code_c46f44f9::project;
+using code_c46f44f9::gamma_at;
 }  // namespace four_bar
 
 using namespace four_bar;
 
-// What four_bar.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_prepare(double* par) {
-    four_bar::code::table.prepare(par);
+#ifndef ALEMBERT_four_bar_c46f44f9  // once in a unit, however many namespaces include this file
+#define ALEMBERT_four_bar_c46f44f9
+// What four_bar.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_prepare_c46f44f9(double* par) {
+    four_bar::code_c46f44f9::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_rhs(double t, const double* state, const double* par, double* rate) {
-    four_bar::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_rhs_c46f44f9(double t, const double* state, const double* par, double* rate) {
+    four_bar::code_c46f44f9::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    four_bar::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_mass_forcing_c46f44f9(double t, const double* state, const double* par, double* mass, double* forcing) {
+    four_bar::code_c46f44f9::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    four_bar::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_energy_c46f44f9(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    four_bar::code_c46f44f9::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    four_bar::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_constraints_at_c46f44f9(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    four_bar::code_c46f44f9::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    four_bar::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_multipliers_at_c46f44f9(double t, const double* state, const double* par, double* lambda) {
+    four_bar::code_c46f44f9::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    four_bar::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_project_c46f44f9(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    four_bar::code_c46f44f9::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) void four_bar_gamma_at(double t, const double* state, const double* par, double* out) {
-    four_bar::code::projection.gamma_at(t, state, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void four_bar_gamma_at_c46f44f9(double t, const double* state, const double* par, double* out) {
+    four_bar::code_c46f44f9::projection.gamma_at(t, state, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* four_bar_tables() { return &four_bar::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* four_bar_tables_c46f44f9() {
+    return &four_bar::code_c46f44f9::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return four_bar::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return four_bar::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return four_bar::code_c46f44f9::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return four_bar::code_c46f44f9::all.projection; }
 #endif

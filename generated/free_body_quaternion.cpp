@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'free_body_quaternion': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit free_body_quaternion.toml
+//   alembert emit free_body_quaternion.toml -o .
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -11,7 +11,7 @@
 //   rate[7]         d state / dt
 //   par[12]         A = 1 [kg m^2], B = 2 [kg m^2], C = 3 [kg m^2],
 //                   then 9 numbers that prepare computes from them; call it after each change
-//   mass_forcing    mass[9], M + c A^T A row by row; forcing[3], f + c A^T gamma, with a c for the norm of each quaternion
+//   mass_forcing    mass[9], M row by row; forcing[3], f
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   outputs_at      out[6]: Hx, Hy, Hz, w1, w2, w3
 //   constraints_at  position[1], velocity[1]; rows[7], A row by row
@@ -37,7 +37,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace free_body_quaternion::code {
+namespace free_body_quaternion::code_e8835615 {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -430,58 +430,64 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace free_body_quaternion::code
+}  // namespace free_body_quaternion::code_e8835615
 #pragma GCC diagnostic pop
 
 namespace free_body_quaternion {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
+using code_e8835615::parameter_values;
+using code_e8835615::coordinate_names;
+using code_e8835615::speed_names;
+using code_e8835615::parameter_names;
+using code_e8835615::output_names;
+using code_e8835615::event_names;
+using code_e8835615::table;
+using code_e8835615::prepare;
+using code_e8835615::rhs;
+using code_e8835615::mass_forcing;
+using code_e8835615::energy;
+using code_e8835615::outputs_at;
+using code_e8835615::constraints_at;
+using code_e8835615::multipliers_at;
+using code_e8835615::project;
 }  // namespace free_body_quaternion
 
 using namespace free_body_quaternion;
 
-// What free_body_quaternion.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_prepare(double* par) {
-    free_body_quaternion::code::table.prepare(par);
+#ifndef ALEMBERT_free_body_quaternion_e8835615  // once in a unit, however many namespaces include this file
+#define ALEMBERT_free_body_quaternion_e8835615
+// What free_body_quaternion.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_prepare_e8835615(double* par) {
+    free_body_quaternion::code_e8835615::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_rhs(double t, const double* state, const double* par, double* rate) {
-    free_body_quaternion::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_rhs_e8835615(double t, const double* state, const double* par, double* rate) {
+    free_body_quaternion::code_e8835615::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    free_body_quaternion::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_mass_forcing_e8835615(double t, const double* state, const double* par, double* mass, double* forcing) {
+    free_body_quaternion::code_e8835615::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    free_body_quaternion::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_energy_e8835615(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    free_body_quaternion::code_e8835615::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    free_body_quaternion::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_outputs_at_e8835615(double t, const double* state, const double* rate, const double* par, double* out) {
+    free_body_quaternion::code_e8835615::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    free_body_quaternion::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_constraints_at_e8835615(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    free_body_quaternion::code_e8835615::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    free_body_quaternion::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_multipliers_at_e8835615(double t, const double* state, const double* par, double* lambda) {
+    free_body_quaternion::code_e8835615::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    free_body_quaternion::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void free_body_quaternion_project_e8835615(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    free_body_quaternion::code_e8835615::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* free_body_quaternion_tables() { return &free_body_quaternion::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* free_body_quaternion_tables_e8835615() {
+    return &free_body_quaternion::code_e8835615::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return free_body_quaternion::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return free_body_quaternion::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return free_body_quaternion::code_e8835615::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return free_body_quaternion::code_e8835615::all.projection; }
 #endif

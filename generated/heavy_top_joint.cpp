@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'heavy_top_joint': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit heavy_top_joint.toml
+//   alembert emit heavy_top_joint.toml -o .
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -11,7 +11,7 @@
 //   rate[7]         d state / dt
 //   par[16]         m = 2 [kg], l = 0.5 [m], g = 1 [m/s^2], A = 1 [kg m^2], C = 0.5 [kg m^2], theta0 = 1 [rad],
 //                   then 10 numbers that prepare computes from them; call it after each change
-//   mass_forcing    mass[9], M + c A^T A row by row; forcing[3], f + c A^T gamma, with a c for the norm of each quaternion
+//   mass_forcing    mass[9], M row by row; forcing[3], f
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   outputs_at      out[5]: height, vertical, w1, w2, w3
 //   constraints_at  position[1], velocity[1]; rows[7], A row by row
@@ -37,7 +37,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace heavy_top_joint::code {
+namespace heavy_top_joint::code_78bdc010 {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -507,58 +507,64 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace heavy_top_joint::code
+}  // namespace heavy_top_joint::code_78bdc010
 #pragma GCC diagnostic pop
 
 namespace heavy_top_joint {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
+using code_78bdc010::parameter_values;
+using code_78bdc010::coordinate_names;
+using code_78bdc010::speed_names;
+using code_78bdc010::parameter_names;
+using code_78bdc010::output_names;
+using code_78bdc010::event_names;
+using code_78bdc010::table;
+using code_78bdc010::prepare;
+using code_78bdc010::rhs;
+using code_78bdc010::mass_forcing;
+using code_78bdc010::energy;
+using code_78bdc010::outputs_at;
+using code_78bdc010::constraints_at;
+using code_78bdc010::multipliers_at;
+using code_78bdc010::project;
 }  // namespace heavy_top_joint
 
 using namespace heavy_top_joint;
 
-// What heavy_top_joint.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_prepare(double* par) {
-    heavy_top_joint::code::table.prepare(par);
+#ifndef ALEMBERT_heavy_top_joint_78bdc010  // once in a unit, however many namespaces include this file
+#define ALEMBERT_heavy_top_joint_78bdc010
+// What heavy_top_joint.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_prepare_78bdc010(double* par) {
+    heavy_top_joint::code_78bdc010::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_rhs(double t, const double* state, const double* par, double* rate) {
-    heavy_top_joint::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_rhs_78bdc010(double t, const double* state, const double* par, double* rate) {
+    heavy_top_joint::code_78bdc010::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    heavy_top_joint::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_mass_forcing_78bdc010(double t, const double* state, const double* par, double* mass, double* forcing) {
+    heavy_top_joint::code_78bdc010::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    heavy_top_joint::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_energy_78bdc010(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    heavy_top_joint::code_78bdc010::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    heavy_top_joint::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_outputs_at_78bdc010(double t, const double* state, const double* rate, const double* par, double* out) {
+    heavy_top_joint::code_78bdc010::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    heavy_top_joint::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_constraints_at_78bdc010(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    heavy_top_joint::code_78bdc010::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    heavy_top_joint::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_multipliers_at_78bdc010(double t, const double* state, const double* par, double* lambda) {
+    heavy_top_joint::code_78bdc010::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    heavy_top_joint::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void heavy_top_joint_project_78bdc010(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    heavy_top_joint::code_78bdc010::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* heavy_top_joint_tables() { return &heavy_top_joint::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* heavy_top_joint_tables_78bdc010() {
+    return &heavy_top_joint::code_78bdc010::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return heavy_top_joint::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return heavy_top_joint::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return heavy_top_joint::code_78bdc010::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return heavy_top_joint::code_78bdc010::all.projection; }
 #endif

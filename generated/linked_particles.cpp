@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'linked_particles': recursive, composite bodies.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit linked_particles.toml
+//   alembert emit linked_particles.toml -o .
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -37,7 +37,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace linked_particles::code {
+namespace linked_particles::code_336b0152 {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -627,62 +627,68 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace linked_particles::code
+}  // namespace linked_particles::code_336b0152
 #pragma GCC diagnostic pop
 
 namespace linked_particles {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
-using code::gamma_at;
+using code_336b0152::parameter_values;
+using code_336b0152::coordinate_names;
+using code_336b0152::speed_names;
+using code_336b0152::parameter_names;
+using code_336b0152::output_names;
+using code_336b0152::event_names;
+using code_336b0152::table;
+using code_336b0152::prepare;
+using code_336b0152::rhs;
+using code_336b0152::mass_forcing;
+using code_336b0152::energy;
+using code_336b0152::outputs_at;
+using code_336b0152::constraints_at;
+using code_336b0152::multipliers_at;
+using code_336b0152::project;
+using code_336b0152::gamma_at;
 }  // namespace linked_particles
 
 using namespace linked_particles;
 
-// What linked_particles.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_prepare(double* par) {
-    linked_particles::code::table.prepare(par);
+#ifndef ALEMBERT_linked_particles_336b0152  // once in a unit, however many namespaces include this file
+#define ALEMBERT_linked_particles_336b0152
+// What linked_particles.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_prepare_336b0152(double* par) {
+    linked_particles::code_336b0152::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_rhs(double t, const double* state, const double* par, double* rate) {
-    linked_particles::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_rhs_336b0152(double t, const double* state, const double* par, double* rate) {
+    linked_particles::code_336b0152::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    linked_particles::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_mass_forcing_336b0152(double t, const double* state, const double* par, double* mass, double* forcing) {
+    linked_particles::code_336b0152::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    linked_particles::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_energy_336b0152(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    linked_particles::code_336b0152::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    linked_particles::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_outputs_at_336b0152(double t, const double* state, const double* rate, const double* par, double* out) {
+    linked_particles::code_336b0152::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    linked_particles::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_constraints_at_336b0152(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    linked_particles::code_336b0152::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    linked_particles::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_multipliers_at_336b0152(double t, const double* state, const double* par, double* lambda) {
+    linked_particles::code_336b0152::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    linked_particles::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_project_336b0152(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    linked_particles::code_336b0152::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) void linked_particles_gamma_at(double t, const double* state, const double* par, double* out) {
-    linked_particles::code::projection.gamma_at(t, state, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void linked_particles_gamma_at_336b0152(double t, const double* state, const double* par, double* out) {
+    linked_particles::code_336b0152::projection.gamma_at(t, state, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* linked_particles_tables() { return &linked_particles::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* linked_particles_tables_336b0152() {
+    return &linked_particles::code_336b0152::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return linked_particles::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return linked_particles::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return linked_particles::code_336b0152::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return linked_particles::code_336b0152::all.projection; }
 #endif

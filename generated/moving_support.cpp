@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'moving_support': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit moving_support.toml
+//   alembert emit moving_support.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -33,7 +33,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace moving_support::code {
+namespace moving_support::code_769d90ac {
 namespace {  // seen in this file alone
 
 inline double sqrt(double x) { return __builtin_sqrt(x); }
@@ -442,45 +442,51 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace moving_support::code
+}  // namespace moving_support::code_769d90ac
 #pragma GCC diagnostic pop
 
 namespace moving_support {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
+using code_769d90ac::parameter_values;
+using code_769d90ac::coordinate_names;
+using code_769d90ac::speed_names;
+using code_769d90ac::parameter_names;
+using code_769d90ac::output_names;
+using code_769d90ac::event_names;
+using code_769d90ac::table;
+using code_769d90ac::prepare;
+using code_769d90ac::rhs;
+using code_769d90ac::mass_forcing;
+using code_769d90ac::energy;
+using code_769d90ac::outputs_at;
 }  // namespace moving_support
 
 using namespace moving_support;
 
-// What moving_support.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void moving_support_prepare(double* par) {
-    moving_support::code::table.prepare(par);
+#ifndef ALEMBERT_moving_support_769d90ac  // once in a unit, however many namespaces include this file
+#define ALEMBERT_moving_support_769d90ac
+// What moving_support.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_prepare_769d90ac(double* par) {
+    moving_support::code_769d90ac::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void moving_support_rhs(double t, const double* state, const double* par, double* rate) {
-    moving_support::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_rhs_769d90ac(double t, const double* state, const double* par, double* rate) {
+    moving_support::code_769d90ac::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void moving_support_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    moving_support::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_mass_forcing_769d90ac(double t, const double* state, const double* par, double* mass, double* forcing) {
+    moving_support::code_769d90ac::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void moving_support_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    moving_support::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_energy_769d90ac(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    moving_support::code_769d90ac::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void moving_support_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    moving_support::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void moving_support_outputs_at_769d90ac(double t, const double* state, const double* rate, const double* par, double* out) {
+    moving_support::code_769d90ac::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* moving_support_tables() { return &moving_support::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* moving_support_tables_769d90ac() {
+    return &moving_support::code_769d90ac::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return moving_support::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return moving_support::code_769d90ac::all.solver; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'planetary_gear': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit planetary_gear.toml
+//   alembert emit planetary_gear.toml -o .
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -36,7 +36,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace planetary_gear::code {
+namespace planetary_gear::code_08fa7725 {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -263,58 +263,64 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace planetary_gear::code
+}  // namespace planetary_gear::code_08fa7725
 #pragma GCC diagnostic pop
 
 namespace planetary_gear {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
-using code::gamma_at;
+using code_08fa7725::parameter_values;
+using code_08fa7725::coordinate_names;
+using code_08fa7725::speed_names;
+using code_08fa7725::parameter_names;
+using code_08fa7725::output_names;
+using code_08fa7725::event_names;
+using code_08fa7725::table;
+using code_08fa7725::prepare;
+using code_08fa7725::rhs;
+using code_08fa7725::mass_forcing;
+using code_08fa7725::energy;
+using code_08fa7725::constraints_at;
+using code_08fa7725::multipliers_at;
+using code_08fa7725::project;
+using code_08fa7725::gamma_at;
 }  // namespace planetary_gear
 
 using namespace planetary_gear;
 
-// What planetary_gear.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_prepare(double* par) {
-    planetary_gear::code::table.prepare(par);
+#ifndef ALEMBERT_planetary_gear_08fa7725  // once in a unit, however many namespaces include this file
+#define ALEMBERT_planetary_gear_08fa7725
+// What planetary_gear.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_prepare_08fa7725(double* par) {
+    planetary_gear::code_08fa7725::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_rhs(double t, const double* state, const double* par, double* rate) {
-    planetary_gear::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_rhs_08fa7725(double t, const double* state, const double* par, double* rate) {
+    planetary_gear::code_08fa7725::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    planetary_gear::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_mass_forcing_08fa7725(double t, const double* state, const double* par, double* mass, double* forcing) {
+    planetary_gear::code_08fa7725::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    planetary_gear::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_energy_08fa7725(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    planetary_gear::code_08fa7725::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    planetary_gear::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_constraints_at_08fa7725(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    planetary_gear::code_08fa7725::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    planetary_gear::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_multipliers_at_08fa7725(double t, const double* state, const double* par, double* lambda) {
+    planetary_gear::code_08fa7725::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    planetary_gear::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_project_08fa7725(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    planetary_gear::code_08fa7725::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_gamma_at(double t, const double* state, const double* par, double* out) {
-    planetary_gear::code::projection.gamma_at(t, state, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void planetary_gear_gamma_at_08fa7725(double t, const double* state, const double* par, double* out) {
+    planetary_gear::code_08fa7725::projection.gamma_at(t, state, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* planetary_gear_tables() { return &planetary_gear::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* planetary_gear_tables_08fa7725() {
+    return &planetary_gear::code_08fa7725::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return planetary_gear::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return planetary_gear::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return planetary_gear::code_08fa7725::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return planetary_gear::code_08fa7725::all.projection; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'relativistic_kepler': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit relativistic_kepler.toml
+//   alembert emit relativistic_kepler.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -32,7 +32,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace relativistic_kepler::code {
+namespace relativistic_kepler::code_bd284315 {
 namespace {  // seen in this file alone
 
 inline double sqrt(double x) { return __builtin_sqrt(x); }
@@ -241,41 +241,47 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace relativistic_kepler::code
+}  // namespace relativistic_kepler::code_bd284315
 #pragma GCC diagnostic pop
 
 namespace relativistic_kepler {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
+using code_bd284315::parameter_values;
+using code_bd284315::coordinate_names;
+using code_bd284315::speed_names;
+using code_bd284315::parameter_names;
+using code_bd284315::output_names;
+using code_bd284315::event_names;
+using code_bd284315::table;
+using code_bd284315::prepare;
+using code_bd284315::rhs;
+using code_bd284315::mass_forcing;
+using code_bd284315::energy;
 }  // namespace relativistic_kepler
 
 using namespace relativistic_kepler;
 
-// What relativistic_kepler.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_prepare(double* par) {
-    relativistic_kepler::code::table.prepare(par);
+#ifndef ALEMBERT_relativistic_kepler_bd284315  // once in a unit, however many namespaces include this file
+#define ALEMBERT_relativistic_kepler_bd284315
+// What relativistic_kepler.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_prepare_bd284315(double* par) {
+    relativistic_kepler::code_bd284315::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_rhs(double t, const double* state, const double* par, double* rate) {
-    relativistic_kepler::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_rhs_bd284315(double t, const double* state, const double* par, double* rate) {
+    relativistic_kepler::code_bd284315::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    relativistic_kepler::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_mass_forcing_bd284315(double t, const double* state, const double* par, double* mass, double* forcing) {
+    relativistic_kepler::code_bd284315::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    relativistic_kepler::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void relativistic_kepler_energy_bd284315(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    relativistic_kepler::code_bd284315::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* relativistic_kepler_tables() { return &relativistic_kepler::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* relativistic_kepler_tables_bd284315() {
+    return &relativistic_kepler::code_bd284315::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return relativistic_kepler::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return relativistic_kepler::code_bd284315::all.solver; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'rolling_disc_in_space': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit rolling_disc_in_space.toml
+//   alembert emit rolling_disc_in_space.toml -o .
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -36,7 +36,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace rolling_disc_in_space::code {
+namespace rolling_disc_in_space::code_df7628a0 {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -764,58 +764,64 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace rolling_disc_in_space::code
+}  // namespace rolling_disc_in_space::code_df7628a0
 #pragma GCC diagnostic pop
 
 namespace rolling_disc_in_space {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
-using code::gamma_at;
+using code_df7628a0::parameter_values;
+using code_df7628a0::coordinate_names;
+using code_df7628a0::speed_names;
+using code_df7628a0::parameter_names;
+using code_df7628a0::output_names;
+using code_df7628a0::event_names;
+using code_df7628a0::table;
+using code_df7628a0::prepare;
+using code_df7628a0::rhs;
+using code_df7628a0::mass_forcing;
+using code_df7628a0::energy;
+using code_df7628a0::constraints_at;
+using code_df7628a0::multipliers_at;
+using code_df7628a0::project;
+using code_df7628a0::gamma_at;
 }  // namespace rolling_disc_in_space
 
 using namespace rolling_disc_in_space;
 
-// What rolling_disc_in_space.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_prepare(double* par) {
-    rolling_disc_in_space::code::table.prepare(par);
+#ifndef ALEMBERT_rolling_disc_in_space_df7628a0  // once in a unit, however many namespaces include this file
+#define ALEMBERT_rolling_disc_in_space_df7628a0
+// What rolling_disc_in_space.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_prepare_df7628a0(double* par) {
+    rolling_disc_in_space::code_df7628a0::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_rhs(double t, const double* state, const double* par, double* rate) {
-    rolling_disc_in_space::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_rhs_df7628a0(double t, const double* state, const double* par, double* rate) {
+    rolling_disc_in_space::code_df7628a0::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    rolling_disc_in_space::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_mass_forcing_df7628a0(double t, const double* state, const double* par, double* mass, double* forcing) {
+    rolling_disc_in_space::code_df7628a0::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    rolling_disc_in_space::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_energy_df7628a0(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    rolling_disc_in_space::code_df7628a0::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    rolling_disc_in_space::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_constraints_at_df7628a0(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    rolling_disc_in_space::code_df7628a0::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    rolling_disc_in_space::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_multipliers_at_df7628a0(double t, const double* state, const double* par, double* lambda) {
+    rolling_disc_in_space::code_df7628a0::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    rolling_disc_in_space::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_project_df7628a0(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    rolling_disc_in_space::code_df7628a0::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_gamma_at(double t, const double* state, const double* par, double* out) {
-    rolling_disc_in_space::code::projection.gamma_at(t, state, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void rolling_disc_in_space_gamma_at_df7628a0(double t, const double* state, const double* par, double* out) {
+    rolling_disc_in_space::code_df7628a0::projection.gamma_at(t, state, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* rolling_disc_in_space_tables() { return &rolling_disc_in_space::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* rolling_disc_in_space_tables_df7628a0() {
+    return &rolling_disc_in_space::code_df7628a0::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return rolling_disc_in_space::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return rolling_disc_in_space::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return rolling_disc_in_space::code_df7628a0::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return rolling_disc_in_space::code_df7628a0::all.projection; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'rotating_hoop': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit rotating_hoop.toml
+//   alembert emit rotating_hoop.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -33,7 +33,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace rotating_hoop::code {
+namespace rotating_hoop::code_87376552 {
 namespace {  // seen in this file alone
 
 // Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
@@ -419,45 +419,51 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace rotating_hoop::code
+}  // namespace rotating_hoop::code_87376552
 #pragma GCC diagnostic pop
 
 namespace rotating_hoop {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
+using code_87376552::parameter_values;
+using code_87376552::coordinate_names;
+using code_87376552::speed_names;
+using code_87376552::parameter_names;
+using code_87376552::output_names;
+using code_87376552::event_names;
+using code_87376552::table;
+using code_87376552::prepare;
+using code_87376552::rhs;
+using code_87376552::mass_forcing;
+using code_87376552::energy;
+using code_87376552::outputs_at;
 }  // namespace rotating_hoop
 
 using namespace rotating_hoop;
 
-// What rotating_hoop.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_prepare(double* par) {
-    rotating_hoop::code::table.prepare(par);
+#ifndef ALEMBERT_rotating_hoop_87376552  // once in a unit, however many namespaces include this file
+#define ALEMBERT_rotating_hoop_87376552
+// What rotating_hoop.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_prepare_87376552(double* par) {
+    rotating_hoop::code_87376552::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_rhs(double t, const double* state, const double* par, double* rate) {
-    rotating_hoop::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_rhs_87376552(double t, const double* state, const double* par, double* rate) {
+    rotating_hoop::code_87376552::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    rotating_hoop::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_mass_forcing_87376552(double t, const double* state, const double* par, double* mass, double* forcing) {
+    rotating_hoop::code_87376552::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    rotating_hoop::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_energy_87376552(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    rotating_hoop::code_87376552::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    rotating_hoop::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void rotating_hoop_outputs_at_87376552(double t, const double* state, const double* rate, const double* par, double* out) {
+    rotating_hoop::code_87376552::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* rotating_hoop_tables() { return &rotating_hoop::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* rotating_hoop_tables_87376552() {
+    return &rotating_hoop::code_87376552::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return rotating_hoop::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return rotating_hoop::code_87376552::all.solver; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'sled': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit sled.toml
+//   alembert emit sled.toml -o .
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -37,7 +37,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace sled::code {
+namespace sled::code_a531dba3 {
 namespace {  // seen in this file alone
 
 inline double tan(double x) { return __builtin_tan(x); }
@@ -490,62 +490,68 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace sled::code
+}  // namespace sled::code_a531dba3
 #pragma GCC diagnostic pop
 
 namespace sled {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
-using code::outputs_at;
-using code::constraints_at;
-using code::multipliers_at;
-using code::project;
-using code::gamma_at;
+using code_a531dba3::parameter_values;
+using code_a531dba3::coordinate_names;
+using code_a531dba3::speed_names;
+using code_a531dba3::parameter_names;
+using code_a531dba3::output_names;
+using code_a531dba3::event_names;
+using code_a531dba3::table;
+using code_a531dba3::prepare;
+using code_a531dba3::rhs;
+using code_a531dba3::mass_forcing;
+using code_a531dba3::energy;
+using code_a531dba3::outputs_at;
+using code_a531dba3::constraints_at;
+using code_a531dba3::multipliers_at;
+using code_a531dba3::project;
+using code_a531dba3::gamma_at;
 }  // namespace sled
 
 using namespace sled;
 
-// What sled.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void sled_prepare(double* par) {
-    sled::code::table.prepare(par);
+#ifndef ALEMBERT_sled_a531dba3  // once in a unit, however many namespaces include this file
+#define ALEMBERT_sled_a531dba3
+// What sled.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void sled_prepare_a531dba3(double* par) {
+    sled::code_a531dba3::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_rhs(double t, const double* state, const double* par, double* rate) {
-    sled::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void sled_rhs_a531dba3(double t, const double* state, const double* par, double* rate) {
+    sled::code_a531dba3::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    sled::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void sled_mass_forcing_a531dba3(double t, const double* state, const double* par, double* mass, double* forcing) {
+    sled::code_a531dba3::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    sled::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void sled_energy_a531dba3(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    sled::code_a531dba3::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_outputs_at(double t, const double* state, const double* rate, const double* par, double* out) {
-    sled::code::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void sled_outputs_at_a531dba3(double t, const double* state, const double* rate, const double* par, double* out) {
+    sled::code_a531dba3::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_constraints_at(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-    sled::code::table.constraints_at(t, state, par, position, velocity, rows);
+extern "C" __attribute__((weak, visibility("default"))) void sled_constraints_at_a531dba3(double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+    sled::code_a531dba3::table.constraints_at(t, state, par, position, velocity, rows);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_multipliers_at(double t, const double* state, const double* par, double* lambda) {
-    sled::code::table.multipliers_at(t, state, par, lambda);
+extern "C" __attribute__((weak, visibility("default"))) void sled_multipliers_at_a531dba3(double t, const double* state, const double* par, double* lambda) {
+    sled::code_a531dba3::table.multipliers_at(t, state, par, lambda);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_project(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
-    sled::code::projection.project(t, state, par, out, position, pivots);
+extern "C" __attribute__((weak, visibility("default"))) void sled_project_a531dba3(double t, const double* state, const double* par, double* out, double* position, double* pivots) {
+    sled::code_a531dba3::projection.project(t, state, par, out, position, pivots);
 }
-extern "C" __attribute__((weak, visibility("default"))) void sled_gamma_at(double t, const double* state, const double* par, double* out) {
-    sled::code::projection.gamma_at(t, state, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void sled_gamma_at_a531dba3(double t, const double* state, const double* par, double* out) {
+    sled::code_a531dba3::projection.gamma_at(t, state, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* sled_tables() { return &sled::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* sled_tables_a531dba3() {
+    return &sled::code_a531dba3::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return sled::code::all.solver; }
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return sled::code::all.projection; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return sled::code_a531dba3::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_projection() { return sled::code_a531dba3::all.projection; }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Equations of motion of 'two_centres': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
-//   alembert emit two_centres.toml
+//   alembert emit two_centres.toml -o .
 //
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
@@ -32,7 +32,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace two_centres::code {
+namespace two_centres::code_13c6fceb {
 namespace {  // seen in this file alone
 
 inline double sinh(double x) { return __builtin_sinh(x); }
@@ -430,41 +430,47 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace two_centres::code
+}  // namespace two_centres::code_13c6fceb
 #pragma GCC diagnostic pop
 
 namespace two_centres {
-using code::parameter_values;
-using code::coordinate_names;
-using code::speed_names;
-using code::parameter_names;
-using code::output_names;
-using code::event_names;
-using code::table;
-using code::prepare;
-using code::rhs;
-using code::mass_forcing;
-using code::energy;
+using code_13c6fceb::parameter_values;
+using code_13c6fceb::coordinate_names;
+using code_13c6fceb::speed_names;
+using code_13c6fceb::parameter_names;
+using code_13c6fceb::output_names;
+using code_13c6fceb::event_names;
+using code_13c6fceb::table;
+using code_13c6fceb::prepare;
+using code_13c6fceb::rhs;
+using code_13c6fceb::mass_forcing;
+using code_13c6fceb::energy;
 }  // namespace two_centres
 
 using namespace two_centres;
 
-// What two_centres.hpp declares: under names that begin with that of the scene, so that many systems can be in one program.
-extern "C" __attribute__((weak, visibility("default"))) void two_centres_prepare(double* par) {
-    two_centres::code::table.prepare(par);
+#ifndef ALEMBERT_two_centres_13c6fceb  // once in a unit, however many namespaces include this file
+#define ALEMBERT_two_centres_13c6fceb
+// What two_centres.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
+// header, so that many systems can be in one program, and no header is linked with another file than its own.
+extern "C" __attribute__((weak, visibility("default"))) void two_centres_prepare_13c6fceb(double* par) {
+    two_centres::code_13c6fceb::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void two_centres_rhs(double t, const double* state, const double* par, double* rate) {
-    two_centres::code::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void two_centres_rhs_13c6fceb(double t, const double* state, const double* par, double* rate) {
+    two_centres::code_13c6fceb::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void two_centres_mass_forcing(double t, const double* state, const double* par, double* mass, double* forcing) {
-    two_centres::code::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void two_centres_mass_forcing_13c6fceb(double t, const double* state, const double* par, double* mass, double* forcing) {
+    two_centres::code_13c6fceb::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void two_centres_energy(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    two_centres::code::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void two_centres_energy_13c6fceb(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    two_centres::code_13c6fceb::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* two_centres_tables() { return &two_centres::code::all; }
+extern "C" __attribute__((weak, visibility("default"))) const void* two_centres_tables_13c6fceb() {
+    return &two_centres::code_13c6fceb::all;
+}
+#endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return two_centres::code::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return two_centres::code_13c6fceb::all.solver; }
 #endif

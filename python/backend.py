@@ -78,6 +78,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
             with open(path, "rb") as file:
                 contents[f"alembert/{name}"] = file.read()
     contents[f"{info}/METADATA"] = _metadata().encode()
+    contents[f"{info}/entry_points.txt"] = b"[console_scripts]\nalembert = alembert.__main__:main\n"
     contents[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: alembert\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     record = ""
     wheel = f"alembert-{_version()}-{tag}.whl"

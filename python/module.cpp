@@ -18,6 +18,8 @@
 #include "analysis/state/prepared.hpp"
 #include "base/archive/file_form.hpp"
 #include "base/language/libraries.hpp"
+#include "commands/command_line.hpp"
+#include "commands/streams.hpp"
 #include "present/report/derivation.hpp"
 #include "present/report/motion_plot.hpp"
 #include "present/report/run.hpp"
@@ -204,13 +206,13 @@ py::array_t<double> right_hand_side(const CompiledSystem& s, const py::object& t
         return result;
     }
     return mapped(t, states, n, {n},
-                  [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
+                  [s](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
                       s.rhs_of_many(times, in, count, out);
                   });
 }
 
 void add_errors(py::module_& module) {
-    static py::exception<std::runtime_error> base(module, "Error");
+    static py::exception<std::runtime_error> base(module, "Error", PyExc_RuntimeError);
     static py::exception<SceneError> scene(module, "SceneError", base.ptr());
     static py::exception<ModelError> model(module, "ModelError", base.ptr());
     static py::exception<CompileError> environment(module, "EnvironmentFailure", base.ptr());
@@ -224,6 +226,8 @@ void add_errors(py::module_& module) {
     py::register_exception_translator([](std::exception_ptr error) {
         try {
             if (error) std::rethrow_exception(error);
+        } catch (const Interrupted& interrupted) {
+            interrupted.raised->restore();
         } catch (const SceneError& e) {
             const py::object raised = static_cast<const py::object&>(scene)(e.what());
             py::list places;
@@ -256,7 +260,7 @@ py::array_t<double> robot_function(const CompiledSystem& s, int which, const py:
             throw std::invalid_argument("coordinates, rates and accelerations must have the same shape");
     return mapped(
         t, q, s.coordinate_count(), {f.rows, f.columns},
-        [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
+        [s, &f, &v, &a](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
             s.function_of_many(f, times, {in, v ? v->data() : nullptr, a ? a->data() : nullptr}, count, out);
         });
 }
@@ -287,32 +291,39 @@ void add_verbs(py::module_& module) {
                    return Held<DerivedScene>(
                        new DerivedScene(derive(parse_scene(text, file), {.by = by, .reactions = reactions})));
                });
-    module.def("simulate",
-               [](const std::string& text, const std::string& file, const std::string& by,
-                  const std::string& method, const std::array<std::optional<double>, 5>& numbers, long budget,
-                  bool estimate, bool reactions, bool fast_math, const std::string& section,
-                  const std::string& code, const std::vector<std::string>& sensitivity,
-                  const std::vector<std::string>& sensitivity_of, bool regularize, bool tuning) {
-                   return simulated(text, file,
-                                    {.by = by,
-                                     .method = method,
-                                     .code = code,
-                                     .duration = numbers[0],
-                                     .tolerance = numbers[1],
-                                     .step = numbers[2],
-                                     .sample = numbers[3],
-                                     .max_step = numbers[4],
-                                     .budget = budget,
-                                     .fast_math = fast_math,
-                                     .estimate = estimate,
-                                     .tuning = tuning,
-                                     .regularize = regularize,
-                                     .reactions = reactions,
-                                     .sensitivity = sensitivity,
-                                     .sensitivity_of = sensitivity_of},
-                                    section);
-               });
+    module.def(
+        "simulate",
+        [](const std::string& text, const std::string& file, const std::string& by, const std::string& method,
+           const std::array<std::optional<double>, 5>& numbers, long budget, bool estimate, bool reactions,
+           bool fast_math, const std::string& section, const std::string& code,
+           const std::vector<std::string>& sensitivity, const std::vector<std::string>& sensitivity_of,
+           bool sensitivity_rows, bool regularize, bool tuning) {
+            return simulated(text, file,
+                             {.by = by,
+                              .method = method,
+                              .code = code,
+                              .duration = numbers[0],
+                              .tolerance = numbers[1],
+                              .step = numbers[2],
+                              .sample = numbers[3],
+                              .max_step = numbers[4],
+                              .budget = budget,
+                              .fast_math = fast_math,
+                              .estimate = estimate,
+                              .tuning = tuning,
+                              .regularize = regularize,
+                              .reactions = reactions,
+                              .sensitivity = sensitivity,
+                              .sensitivity_of = sensitivity_of,
+                              .sensitivity_rows = sensitivity_rows},
+                             section);
+        });
     module.def("system", system_of);
+    module.def("command_line", [](const std::vector<std::string>& args) {
+        const py::gil_scoped_release release;
+        guard_streams();
+        return finished(command_line(args));
+    });
     module.def("functions_of_robots", all_functions);
     module.def("in_words_of_scenes", [](std::string text) {
         std::vector<Place> places;
@@ -382,14 +393,14 @@ void add_system(py::module_& module) {
              [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
                  const int n = s.dimension();
                  return mapped(t, states, n, {n, n},
-                               [&](const std::vector<double>& times, const double* in, std::size_t count,
+                               [s](const std::vector<double>& times, const double* in, std::size_t count,
                                    double* out) { s.jacobian_of_many(times, in, count, out); });
              })
         .def("mass_matrix",
              [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
                  const int k = s.speed_count();
                  return mapped(t, states, s.dimension(), {k, k},
-                               [&](const std::vector<double>& times, const double* in, std::size_t count,
+                               [s](const std::vector<double>& times, const double* in, std::size_t count,
                                    double* out) { s.mass_of_many(times, in, count, out, nullptr); });
              })
         .def_property_readonly("functions", &CompiledSystem::function_names)
@@ -401,7 +412,7 @@ void add_system(py::module_& module) {
         .def("call", robot_function)
         .def("energy", [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
             return mapped(t, states, s.dimension(), {3},
-                          [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
+                          [s](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
                               s.energy_of_many(times, in, count, out);
                           });
         });

@@ -81,17 +81,18 @@ void on_all_cores(std::size_t count, const Part& part) {
 
 CompiledSystem::CompiledSystem(Module module, std::string source)
     : module_(std::move(module)),
-      source_(std::move(source)),
+      source_(std::make_shared<const std::string>(std::move(source))),
       n_(module_.table().coordinates),
       s_(module_.table().speeds),
-      values_(module_.table().parameter_values, module_.table().parameter_values + module_.table().parameters),
-      par_(prepared(module_)) {}
+      parameters_(std::make_shared<const Parameters>(Parameters{
+          {module_.table().parameter_values, module_.table().parameter_values + module_.table().parameters},
+          prepared(module_)})) {}
 
 void CompiledSystem::set_parameters(const std::vector<double>& values) {
-    if (values.size() != values_.size())
-        throw std::invalid_argument(fmt::format("{} values for {} parameters", values.size(), values_.size()));
-    par_ = prepared(module_, values);
-    values_ = values;
+    const std::size_t count = parameter_values().size();
+    if (values.size() != count)
+        throw std::invalid_argument(fmt::format("{} values for {} parameters", values.size(), count));
+    parameters_ = std::make_shared<const Parameters>(Parameters{values, prepared(module_, values)});
 }
 
 void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from,
@@ -100,7 +101,7 @@ void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double
     const alembert_pack_table* const pack = module_.pack();
     std::size_t k = from;
     if (pack != nullptr) {
-        Packed packed(static_cast<std::size_t>(pack->lanes), width, width, par_);
+        Packed packed(static_cast<std::size_t>(pack->lanes), width, width, parameters_->prepared);
         for (; k + packed.lanes <= to; k += packed.lanes) {
             packed.set_times(times, k);
             packed.gather(packed.state, 0, states, k, width);
@@ -118,7 +119,7 @@ void CompiledSystem::function_of_range(const alembert_named_function& f, const s
     const auto n = static_cast<std::size_t>(n_), size = static_cast<std::size_t>(f.rows * f.columns);
     std::size_t k = from;
     if (f.pack != nullptr && module_.pack() != nullptr) {
-        Packed packed(static_cast<std::size_t>(module_.pack()->lanes), 2 * n, size, par_);
+        Packed packed(static_cast<std::size_t>(module_.pack()->lanes), 2 * n, size, parameters_->prepared);
         for (; k + packed.lanes <= to; k += packed.lanes) {
             packed.set_times(times, k);
             packed.gather(packed.state, 0, q, k, n);
@@ -137,7 +138,7 @@ void CompiledSystem::function_of_range(const alembert_named_function& f, const s
         take(state, 0, q, k);
         take(state, n, v, k);
         take(rate, n, a, k);
-        f.call(time_of(times, k), state.data(), rate.data(), par_.data(), values + k * size);
+        f.call(time_of(times, k), state.data(), rate.data(), par(), values + k * size);
     }
 }
 
@@ -169,7 +170,7 @@ void CompiledSystem::jacobian_of_many(const std::vector<double>& times, const do
         for (std::size_t k = from; k < to; ++k) {
             double* const dense = values + k * width * width;
             std::fill_n(dense, width * width, 0.0);
-            table->jacobian(time_of(times, k), states + k * width, par_.data(), entries.data());
+            table->jacobian(time_of(times, k), states + k * width, par(), entries.data());
             for (int i = 0; i < table->entries; ++i)
                 if (table->rows[i] < dimension())  // the row beyond is the power's
                     dense[static_cast<std::size_t>(table->rows[i]) * width +
@@ -186,7 +187,7 @@ void CompiledSystem::mass_of_many(const std::vector<double>& times, const double
     on_all_cores(count, [&](std::size_t from, std::size_t to) {
         std::vector<double> f(s);
         for (std::size_t k = from; k < to; ++k)
-            module_.table().mass_forcing(time_of(times, k), states + k * width, par_.data(), mass + k * s * s,
+            module_.table().mass_forcing(time_of(times, k), states + k * width, par(), mass + k * s * s,
                                          forcing != nullptr ? forcing + k * s : f.data());
     });
 }
@@ -200,7 +201,7 @@ void CompiledSystem::energy_of_many(const std::vector<double>& times, const doub
         for (std::size_t k = from; k < to; ++k) {
             const double t = time_of(times, k);
             rhs(t, states + k * width, rate.data());
-            module_.table().energy(t, states + k * width, rate.data(), par_.data(), told, &jacobi);
+            module_.table().energy(t, states + k * width, rate.data(), par(), told, &jacobi);
             std::copy_n(told, 3, energies + 3 * k);
         }
     });

@@ -7,8 +7,10 @@
 ///     system.rhs(0, state, rate);        // state: coordinates, then speeds; rate: their derivatives
 ///     system.rhs_of_many({0}, states, 1000, rates);      // 1000 states, row by row; packs of eight, all cores
 ///
-/// A time for each state, or one for all. Functions are thread-safe while nobody sets parameters.
+/// A time for each state, or one for all. A copy is cheap, and shares what neither changes: a call that works
+/// while another thread sets parameters takes one first, and so has the same parameters throughout.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,15 +25,13 @@ public:
     int dimension() const { return n_ + s_; }
     int coordinate_count() const { return n_; }
     int speed_count() const { return s_; }
-    const std::vector<double>& parameter_values() const { return values_; }
-    const std::string& source() const { return source_; }
+    const std::vector<double>& parameter_values() const { return parameters_->values; }
+    const std::string& source() const { return *source_; }
 
     /// Throws std::invalid_argument for a number of values that is not that of the parameters.
     void set_parameters(const std::vector<double>& values);
 
-    void rhs(double t, const double* state, double* rate) const {
-        module_.table().rhs(t, state, par_.data(), rate);
-    }
+    void rhs(double t, const double* state, double* rate) const { module_.table().rhs(t, state, par(), rate); }
     void rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                      double* rates) const;
     /// Row by row: count × dimension². Throws std::invalid_argument where the file has no derivatives.
@@ -63,10 +63,15 @@ private:
     void function_of_range(const alembert_named_function& f, const std::vector<double>& times,
                            const StateRows& states, std::size_t from, std::size_t to, double* values) const;
 
+    struct Parameters {
+        std::vector<double> values, prepared;
+    };
+    const double* par() const { return parameters_->prepared.data(); }
+
     Module module_;
-    std::string source_;
+    std::shared_ptr<const std::string> source_;
     int n_, s_;
-    std::vector<double> values_, par_;
+    std::shared_ptr<const Parameters> parameters_;
 };
 
 }  // namespace alembert

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "turns.hpp"
 
+#include <pthread.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "alembert/base/interrupt.hpp"
 
 namespace py = pybind11;
 
@@ -20,16 +26,32 @@ struct Turns {
     std::mutex guard;
     std::condition_variable is_free;
     bool taken = false;
+    bool is_lost = false;  ///< with a thread that this process, which was forked, does not have
     std::vector<std::function<void()>> postponed;
 };
 
+Turns* made();
+
 /// It is never destroyed, because threads may still have turns when the process ends.
 Turns& turns() {
-    static Turns* const all = new Turns;
+    static Turns* const all = made();
     return *all;
 }
 
 thread_local bool has_turn = false;
+
+/// A process that is forked has the thread alone that forked it. Whoever else had a turn has left its work half
+/// done; no other verb can begin then.
+Turns* made() {
+    pthread_atfork([] { turns().guard.lock(); }, [] { turns().guard.unlock(); },
+                   [] {
+                       Turns& all = turns();
+                       all.guard.unlock();
+                       new (&all.is_free) std::condition_variable;  // nobody waits in this process
+                       all.is_lost = all.taken && !has_turn;
+                   });
+    return new Turns;
+}
 
 void do_postponed() {
     std::vector<std::function<void()>> work;
@@ -43,15 +65,22 @@ void do_postponed() {
 void take() {
     Turns& all = turns();
     std::unique_lock lock(all.guard);
+    if (all.is_lost)
+        throw std::runtime_error(
+            "this process was forked while another thread was in a verb of alembert, and cannot use alembert; "
+            "start "
+            "processes by multiprocessing's 'spawn' or 'forkserver', or fork while no verb runs");
     while (!all.is_free.wait_for(lock, moment, [&] { return !all.taken; })) {
         lock.unlock();
         look_for_interrupt({}, 0);
         lock.lock();
     }
     all.taken = has_turn = true;
+    on_long_work = [] { look_for_interrupt({}, 0); };
 }
 
 void give_back() {
+    on_long_work = nullptr;
     {
         const std::lock_guard guard(turns().guard);
         turns().taken = has_turn = false;
@@ -90,7 +119,7 @@ void look_for_interrupt(std::string_view, double) {
     if (Clock::now() - last < moment) return;
     last = Clock::now();
     const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (PyErr_CheckSignals() != 0) throw Interrupted{std::make_shared<py::error_already_set>()};
 }
 
 }  // namespace alembert

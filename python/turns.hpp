@@ -8,11 +8,14 @@
 ///     const Answer answer = in_turn([&] { return answer_of(verb, …); });
 ///     py::class_<Motion, std::unique_ptr<Motion, DestroyedInTurn<Motion>>>(module, "Run");
 ///
-/// No object of Python may be touched in a turn, except by a thread that takes the lock again.
+/// No object of Python may be touched in a turn, except by a thread that takes the lock again. In a process that
+/// was forked while another thread had its turn, asking for one throws std::runtime_error.
 
 #include <pybind11/pybind11.h>
 
 #include <functional>
+#include <memory>
+#include <string_view>
 
 namespace alembert {
 
@@ -47,8 +50,15 @@ struct DestroyedInTurn {
     }
 };
 
-/// Lets the user interrupt the work (Ctrl-C, or the stop button of a notebook). May be called with or without the
-/// interpreter's lock, and often: it looks twenty times a second.
+/// What ends the work of a thread: the exception of Python that a signal's function raised, KeyboardInterrupt
+/// after Ctrl-C. No std::exception, which some of the work catches.
+struct Interrupted {
+    std::shared_ptr<pybind11::error_already_set> raised;
+};
+
+/// Lets the user interrupt the work (Ctrl-C, or the stop button of a notebook): throws Interrupted. May be called
+/// with or without the interpreter's lock, and often: it looks twenty times a second. Long work in a turn does so
+/// by itself (alembert/base/interrupt.hpp).
 void look_for_interrupt(std::string_view what, double part);
 
 }  // namespace alembert

@@ -99,6 +99,40 @@ TEST_CASE("units: pictures and texts of sweeps and charts are in the units of th
     CHECK_MESSAGE(branches.find("l [mm] from 100 to 300") != std::string::npos, branches);
 }
 
+TEST_CASE("units: guesses that moved are told in the units of the table") {
+    const std::string file = temporary("moved.toml", R"toml([coordinates]
+a = { initial = 30, rate = 90, unit = "deg" }
+b = { guess = 28, rate_guess = 0, unit = "deg" }
+x = { guess = 1, rate_guess = 0 }
+[[particle]]
+name = "p"
+mass = 1
+position = ["cos(a) + x", "sin(b)"]
+[[constraint]]
+name = "same"
+holonomic = "a - b"
+[[constraint]]
+name = "held"
+holonomic = "x - 2*a"
+)toml");
+    for (const char* const verb : {"eval", "audit", "simulate"}) {
+        CAPTURE(verb);
+        const auto told = run({verb, file});
+        CHECK(told.exit == 0);
+        const auto after = [&](const std::string& words) {
+            const std::size_t at = told.out.find(words);
+            REQUIRE_MESSAGE(at != std::string::npos, told.out);
+            return told.out.substr(at + words.size(), told.out.find('\n', at) - at - words.size());
+        };
+        const std::string b = after("b from 28 to "), rate = after("b' from 0 to "), x = after("x from 1 to ");
+        CHECK(std::stod(b) == doctest::Approx(30).epsilon(1e-14));
+        CHECK(b.ends_with(" deg"));
+        CHECK(std::stod(rate) == doctest::Approx(90).epsilon(1e-14));
+        CHECK(rate.ends_with(" deg/s"));
+        CHECK(x.find_first_not_of("0123456789.e-") == std::string::npos);  // a length without a unit
+    }
+}
+
 TEST_CASE("units: derive --dimensions tells what the units give and what follows") {
     const auto dimensions = [](const std::string& scene) {
         const Json all = Json::parse(run({"derive", scene, "--dimensions", "--json"}).out)["dimensions"];

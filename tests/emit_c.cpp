@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include "alembert/native/compile.hpp"
 #include "alembert/native/module.hpp"
 #include "codegen/machine/memory_solver.hpp"
+#include "emitted.hpp"
 #include "program/differentiate.hpp"
 #include "program/interpret.hpp"
 #include "redundant_plate.hpp"
@@ -35,19 +35,6 @@ const char* const scenes[] = {
     "textbook/double_pendulum", "textbook/rolling_disc",   "textbook/sled",
     "textbook/watt_governor",   "textbook/planetary_gear", "textbook/free_body_quaternion",
     "textbook/heavy_top_joint", "textbook/falling_ladder"};
-
-struct Folder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / fmt::format("alembert-emit-c-{}", getpid());
-    Folder() { std::filesystem::create_directories(path); }
-    ~Folder() { std::filesystem::remove_all(path); }
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
-};
-
-bool runs(const std::string& command) {
-    return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
-}
 
 struct Library {
     explicit Library(const std::string& file) : handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {}
@@ -190,7 +177,7 @@ std::vector<Scene> scenes_with_redundant_rows() {
 }  // namespace
 
 TEST_CASE("emit: the C99 compiles without a warning, and its rates and Jacobian are those of the program") {
-    const Folder folder;
+    const test::Folder folder;
     std::vector<std::unique_ptr<Emission>> all;
     std::string files;
     for (const char* const scene : scenes) {
@@ -209,8 +196,8 @@ TEST_CASE("emit: the C99 compiles without a warning, and its rates and Jacobian 
         files += " " + folder.file(source.file);
     }
     const std::string strict = "-std=c99 -pedantic -Wall -Wextra -Werror";
-    REQUIRE(runs("cc " + strict + " -O1 -ffp-contract=off -shared -fPIC -o " + folder.file("all.so") + files +
-                 " -lm"));
+    REQUIRE(folder.runs("cc " + strict + " -O1 -ffp-contract=off -shared -fPIC -o " + folder.file("all.so") +
+                        files + " -lm"));
     const Library library(folder.file("all.so"));
     REQUIRE(library.handle != nullptr);
     for (const auto& e : all) {
@@ -218,22 +205,22 @@ TEST_CASE("emit: the C99 compiles without a warning, and its rates and Jacobian 
         compare(library, *e);
     }
     if (test::has_program("arm-none-eabi-gcc"))
-        CHECK(runs("cd " + folder.path.string() +
-                   " && arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -c -O1 "
-                   "-DALEMBERT_REAL=float -std=c99" +
-                   files));
+        CHECK(
+            folder.runs("arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -c -O1 "
+                        "-DALEMBERT_REAL=float -std=c99" +
+                        files));
 }
 
 TEST_CASE("emit: long functions in C are written in parts, with the same values") {
-    const Folder folder;
+    const test::Folder folder;
     Emission e = emission(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml")),
                           {.jacobian = true, .language = CodeLanguage::c});
     const Source parted = emit(e.derivatives->program, {.language = CodeLanguage::c, .longest_function = 60});
     CHECK(parted.text.find("carried[") != std::string::npos);
     folder.write(parted.file, parted.text);
     folder.write(parted.header->name, parted.header->text);
-    REQUIRE(runs("cc -std=c99 -pedantic -Wall -Wextra -Werror -O0 -shared -fPIC -o " + folder.file("one.so") +
-                 " " + folder.file(parted.file) + " -lm"));
+    REQUIRE(folder.runs("cc -std=c99 -pedantic -Wall -Wextra -Werror -O0 -shared -fPIC -o " +
+                        folder.file("one.so") + " " + folder.file(parted.file) + " -lm"));
     const Library library(folder.file("one.so"));
     REQUIRE(library.handle != nullptr);
     compare(library, e);
@@ -241,7 +228,7 @@ TEST_CASE("emit: long functions in C are written in parts, with the same values"
 
 // The motion that `simulate` gives by a method of higher order; the scene's tolerance is that of a step.
 TEST_CASE("emit: the main program beside a file integrates to the end that simulate finds, in C and in C++") {
-    const Folder folder;
+    const test::Folder folder;
     for (const char* const scene :
          {"textbook/double_pendulum", "textbook/sled", "textbook/falling_ladder", "gallery/rssr"})
         for (const CodeLanguage language : {CodeLanguage::c, CodeLanguage::cpp}) {
@@ -258,7 +245,7 @@ TEST_CASE("emit: the main program beside a file integrates to the end that simul
                     ? fmt::format("cc -std=c99 -pedantic -Wall -Wextra -Werror -O1 {} {} -lm -o {}",
                                   folder.file(e.main->name), folder.file(e.source.file), program)
                     : fmt::format("c++ -std=c++20 -O1 {} -o {}", folder.file(e.main->name), program);
-            REQUIRE(runs(compiled));
+            REQUIRE(folder.runs(compiled));
             REQUIRE(std::system(fmt::format("{} 1 1e-12 4 > {}", program, table).c_str()) == 0);
             std::ifstream lines(table);
             std::string line, last;
@@ -283,7 +270,7 @@ TEST_CASE("emit: the main program beside a file integrates to the end that simul
 
 TEST_CASE(
     "emit: constraints and multipliers have one count in C, C++ and memory, where rows follow from others too") {
-    const Folder folder;
+    const test::Folder folder;
     for (const Scene& scene : scenes_with_redundant_rows()) {
         const Emission e = emission(scene, {.language = CodeLanguage::c});
         CAPTURE(e.source.file);
@@ -295,8 +282,8 @@ TEST_CASE(
         folder.write(e.source.file,
                      e.source.text + fmt::format("\nint count(void) {{ return {}_constraints; }}\n", name));
         folder.write(e.source.header->name, e.source.header->text);
-        REQUIRE(runs(fmt::format("cc -std=c99 -O1 -shared -fPIC -o {} {} -lm", folder.file(name + ".so"),
-                                 folder.file(e.source.file))));
+        REQUIRE(folder.runs(fmt::format("cc -std=c99 -O1 -shared -fPIC -o {} {} -lm", folder.file(name + ".so"),
+                                        folder.file(e.source.file))));
         const Library library(folder.file(name + ".so"));
         REQUIRE(library.handle != nullptr);
         const auto c = [&]<class Function>(const char* part) {

@@ -3,7 +3,6 @@
 // text of a scene can close, and a calling example that works as it stands.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -18,12 +17,12 @@
 #include "codegen/emit/emit.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/reserved_words.hpp"
+#include "emitted.hpp"
 #include "program/differentiate.hpp"
 #include "program/lower/lower.hpp"
 #include "program/tangent.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
-#include "simulate/emission.hpp"
 #include "simulate/evaluate.hpp"
 
 namespace emit_heads {
@@ -31,19 +30,6 @@ namespace emit_heads {
 using namespace alembert;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / fmt::format("alembert-emit-heads-{}", getpid());
-    Folder() { std::filesystem::create_directories(path); }
-    ~Folder() { std::filesystem::remove_all(path); }
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
-};
-
-bool runs(const std::string& command) {
-    return std::system((command + " 2>&1").c_str()) == 0;
-}
 
 std::vector<std::string> lines_of(const std::string& file) {
     std::ifstream stream(file);
@@ -70,24 +56,23 @@ constexpr const char* strict = "-pedantic -Wall -Wextra -Werror -O0 ";
 
 /// The numbers that the example at the head of the emitted file prints, as a stranger would get them.
 std::vector<double> rates_of_example(const Scene& scene, CodeLanguage language, const std::string& flags) {
-    const Folder folder;
+    const test::Folder folder;
     const bool is_c = language == CodeLanguage::c;
     const Emission e = emission(scene, {.jacobian = true, .language = language});
-    for (const SourceFile& file : files_of(e)) folder.write(file.name, file.text);
+    folder.write(e);
     folder.write(is_c ? "example.c" : "example.cpp", example_in(e.source.text));
     if (is_c) CHECK(example_in(e.source.header->text) == example_in(e.source.text));
     if (!is_c) folder.write("by_header.cpp", example_in(e.source.header->text));
     const std::string compiler = is_c ? "cc -std=c99 example.c " + e.source.file : "c++ -std=c++20 example.cpp";
     CAPTURE(e.source.text.substr(0, 3000));
-    REQUIRE(runs("cd " + folder.path.string() + " && " + compiler + " " + strict +
-                 (is_c ? "" : "-Wno-unused-function -Wno-pedantic ") + flags +
-                 " -lm -o example && ./example > rates"));
+    REQUIRE(folder.runs(compiler + " " + strict + (is_c ? "" : "-Wno-unused-function -Wno-pedantic ") + flags +
+                        " -lm -o example && ./example > rates"));
     std::vector<double> rates;
     for (const std::string& line : lines_of(folder.file("rates"))) rates.push_back(std::stod(line));
     if (is_c) return rates;
     // The example of the header has the state with all its digits.
-    REQUIRE(runs("cd " + folder.path.string() + " && c++ -std=c++17 by_header.cpp " + e.source.file + " " +
-                 strict + flags + " -o by_header && ./by_header > rates"));
+    REQUIRE(folder.runs("c++ -std=c++17 by_header.cpp " + e.source.file + " " + strict + flags +
+                        " -o by_header && ./by_header > rates"));
     std::size_t k = 0;
     double size = 1;
     for (const double rate : rates) size = std::max(size, std::abs(rate));
@@ -142,7 +127,7 @@ Scene scene_of(const std::string& text, const std::string& name) {
 }  // namespace
 
 TEST_CASE("emit: no name in emitted code is a keyword or a macro of the compiler's headers") {
-    const Folder folder;
+    const test::Folder folder;
     std::string headers;
     for (const char* const header :
          {"assert", "complex", "ctype",  "errno",  "fenv",    "float",    "inttypes", "iso646",
@@ -152,7 +137,7 @@ TEST_CASE("emit: no name in emitted code is a keyword or a macro of the compiler
         headers += fmt::format("#if __has_include(<{0}.h>)\n#include <{0}.h>\n#endif\n", header);
     folder.write("all.c", "#define _GNU_SOURCE\n" + headers);
     folder.write("all.cpp", "#include <version>\n" + headers);
-    REQUIRE(runs("cd " + folder.path.string() + " && cc -dM -E all.c > macros && c++ -dM -E all.cpp >> macros"));
+    REQUIRE(folder.runs("cc -dM -E all.c > macros && c++ -dM -E all.cpp >> macros"));
     std::set<std::string> macros;
     for (const std::string& line : lines_of(folder.file("macros"))) {
         const std::string name = line.substr(8, line.find_first_of(" (", 8) - 8);  // after "#define "

@@ -3,7 +3,6 @@
 // it is there, in Node; names that JavaScript reserves and texts of a scene change nothing.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,11 +11,11 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/process.hpp"
+#include "emitted.hpp"
 #include "program/interpret.hpp"
 #include "program/rounding.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
-#include "simulate/emission.hpp"
 #include "tools.hpp"
 
 namespace emit_javascript {
@@ -25,14 +24,6 @@ using namespace alembert;
 using Json = nlohmann::json;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / fmt::format("alembert-emit-js-{}", getpid());
-    Folder() { std::filesystem::create_directories(path); }
-    ~Folder() { std::filesystem::remove_all(path); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
-};
 
 /// Values that a module is to give: numbers, and how far each may be off. That is 1e-14 of the largest of a call,
 /// or what rounding of its own operations may do where terms cancel (rounding.hpp), whichever is more.
@@ -85,7 +76,7 @@ Json call_at(const Program& p, State<double> at) {
 }
 
 /// Writes the module of a scene and gives its calls; none of a scene without equations or a start.
-Json module_of(const Folder& folder, const Scene& scene, const std::string& name, std::size_t longest = 0) {
+Json module_of(const test::Folder& folder, const Scene& scene, const std::string& name, std::size_t longest = 0) {
     Emission e = emission(scene, {.language = CodeLanguage::javascript});
     const Start start = start_of(e.mechanism);
     const State<double> first = state_of(start, e.mechanism, e.equations);
@@ -110,7 +101,7 @@ Json module_of(const Folder& folder, const Scene& scene, const std::string& name
 }
 
 /// Loads the modules of a folder by both, and compares.
-void compare(const Folder& folder, const Json& modules) {
+void compare(const test::Folder& folder, const Json& modules) {
     folder.write("modules.json", modules.dump());
     const std::string script = test::source_path("tests/browser/modules"), of = " " + folder.path.string();
     if (!find_program("node").empty()) CHECK(std::system(("node " + script + ".mjs" + of).c_str()) == 0);
@@ -143,7 +134,7 @@ position = ["({2} + {5})*sin({4})", "-({2} + {5})*cos({4})"]
 }  // namespace
 
 TEST_CASE("emit: modules of JavaScript compute what their programs compute, in a browser and in Node") {
-    const Folder folder;
+    const test::Folder folder;
     Json modules = Json::array();
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
@@ -160,7 +151,7 @@ TEST_CASE("emit: modules of JavaScript compute what their programs compute, in a
 TEST_CASE(
     "emit: reserved words of JavaScript as names, and texts that would end a comment or a script, change "
     "nothing") {
-    const Folder folder;
+    const test::Folder folder;
     Json modules = Json::array();
     int k = 0;
     for (const std::vector<std::string>& names : std::vector<std::vector<std::string>>{

@@ -100,6 +100,105 @@ TEST_CASE("fmu: start values that an importer sets stay, and others follow the c
         }
 }
 
+TEST_CASE("fmu: scenes may be called as what the sources of units declare") {
+    const std::string body = R"toml([coordinates]
+x = 1
+y = { guess = 2 }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "line"
+holonomic = "y - 2*x"
+[[event]]
+name = "wall"
+when = "x - 5"
+impulses = { x = "-1" }
+)toml";
+    for (const char* const name :
+         {"first", "is", "in", "along", "measure", "scene", "given", "held", "step", "unit"})
+        for (const int version : {2, 3}) {
+            CAPTURE(name);
+            const Unit unit = exported(temporary(fmt::format("{}.toml", name), body), version);
+            Instance one(unit, true);
+            CHECK(begun(one, version) == 0);
+        }
+}
+
+TEST_CASE("fmu: at the start guesses move and what is given stays, as in eval") {
+    // The joint at the wrist closes a loop; of the coordinates b and x are guesses.
+    const std::string scene = temporary("crank.toml", R"toml(
+[parameters]
+r = 0.04
+l = 0.15
+a = 0.05
+[[body]]
+name = "crank"
+mass = 0.6
+inertia = 8e-4
+[[body]]
+name = "rod"
+mass = 0.5
+inertia = 1.5e-3
+[[body]]
+name = "piston"
+mass = 0.4
+[[joint]]
+name = "main"
+type = "revolute"
+parent = "N"
+child = "crank"
+coordinates = { q = { initial = 30, unit = "deg", rate = 9000 } }
+[[joint]]
+name = "crankpin"
+type = "revolute"
+parent = "crank"
+child = "rod"
+parent_point = ["r", 0]
+child_point = ["-a", 0]
+coordinates = { b = { guess = -38, rate_guess = 0, unit = "deg" } }
+[[joint]]
+name = "guide"
+type = "prismatic"
+parent = "N"
+child = "piston"
+axis = "x"
+coordinates = { x = { guess = "0.18", rate_guess = 0 } }
+[[joint]]
+name = "wrist"
+type = "revolute"
+parent = "rod"
+child = "piston"
+parent_point = ["l-a", 0]
+)toml");
+    using Values = std::vector<std::pair<std::string, double>>;
+    const std::vector<Values> starts = {
+        {{"q", 2}}, {{"l", 0.16}}, {{"q", -2.5}, {"l", 0.2}}, {{"q", 1}, {"der(q)", 3}}, {}};
+    for (const int version : {2, 3}) {
+        const Unit unit = exported(scene, version);
+        for (const Values& values : starts) {
+            Instance one(unit, true);
+            std::vector<std::string> words{"eval", scene};
+            for (const auto& [name, value] : values) {
+                one.set(name, value);
+                const std::string unit_of = name == "q" ? " rad" : name == "l" ? "" : " rad/s";
+                if (words.size() == 2) words.emplace_back("--at");
+                words.push_back(fmt::format("{}={:.17g}{}", name == "der(q)" ? "q'" : name, value, unit_of));
+            }
+            CHECK(begun(one, version) == 0);
+            const Json expected = json_of(words);
+            for (const char* const name : {"q", "b", "x"}) {
+                CAPTURE(name);
+                const double value = expected["coordinates"][name], rate = expected["rates"][name];
+                CHECK(std::abs(one.get(name) - value) <= 1e-11 * std::max(1.0, std::abs(value)));
+                CHECK(std::abs(one.get(fmt::format("der({})", name)) - rate) <=
+                      1e-10 * std::max(1.0, std::abs(rate)));
+            }
+        }
+    }
+}
+
 TEST_CASE("fmu: calls out of order, what is no number, steps backwards and states of other units are errors") {
     const std::string scene = pendulum_on_cart();
     for (const int version : {2, 3}) {

@@ -18,7 +18,7 @@ if [ -z "$program" ]; then
     echo "clang-format 14 is not installed: the format was not checked"
     exit "${ALEMBERT_NO_SKIP:-77}"
 fi
-files() { find lib generator tools python tests -name '*.[ch]pp' -print0 | sort -z; }
+files() { find lib generator tools python tests examples -name '*.[ch]pp' -print0 | sort -z; }
 if [ "${1-}" = --fix ]; then
     files | xargs -0 "$program" -i
     exit

@@ -114,7 +114,7 @@ TEST_CASE("machine: of two codes the one that takes less time is told, for right
     };
     const auto a = made(+slow, +slow_series), b = made(+quick, +quick_series);
     const auto module_of = [](const auto& fake) {
-        return Module(std::shared_ptr<const alembert_solver_table>(fake, &fake->table), nullptr, nullptr, nullptr);
+        return Module(fake, {&fake->table, nullptr, nullptr, nullptr, nullptr, 0});
     };
     const auto series_of = [](const auto& fake) { return SeriesModule(fake, &fake->series); };
     const std::vector<double> state{0.1, 0.2}, parameters{0.5};

@@ -575,7 +575,7 @@ position = ["{length}*sin(theta)", "-{length}*cos(theta)"]
 
     def test_contacts_that_are_left_out_are_told(self):
         ball = alembert.Scene(scene_file("textbook/bouncing_ball.toml"))
-        with self.assertWarnsRegex(alembert.SceneWarning, "contacts and impulses"):
+        with self.assertWarnsRegex(alembert.SceneWarning, "contacts, dry friction"):
             ball.system()
 
     def test_a_run_that_breaks_off_warns(self):

@@ -2,7 +2,7 @@
 """Tests of the Python package: python3 python_package.py PROGRAM, with the package on PYTHONPATH (exit 77 without NumPy).
 
 Here are verbs, errors and expressions; python_numbers.py has what gives arrays, python_arrays.py arrays of every kind,
-python_examples.py the examples and notebooks."""
+python_examples.py the examples and notebooks, python_every_day.py threads, forks, units and Ctrl-C."""
 
 import ast
 import inspect
@@ -26,10 +26,11 @@ except ImportError:
 
 import alembert
 
-from python_shared import PENDULUM, PROGRAM, SCENES, TESTS, program, scene_file
+from python_shared import NO_SKIP, PENDULUM, PROGRAM, SCENES, TESTS, program, scene_file
 from python_arrays import *  # noqa: F403 (unittest finds the tests of all files here)
 from python_numbers import *  # noqa: F403
 from python_examples import *  # noqa: F403
+from python_every_day import *  # noqa: F403
 
 
 class Verbs(unittest.TestCase):
@@ -175,7 +176,7 @@ class Verbs(unittest.TestCase):
                   "report": {"derivation", "watch", "open"},  # of the command line
                   "sweep": {"vary", "vary_from", "chunk"}}
         forms = {"check": {"claims"}, "emit": {"folder", "language", "frames", "wrenches"}, "fmu": {"path"},
-                 "report": {"path"}, "sweep": {"values", "grid", "path"}}
+                 "report": {"path"}, "simulate": {"sensitivity_rows"}, "sweep": {"values", "grid", "path"}}
         for verb in ("derive agree audit check eval equilibrium linearize stability kinematics inertia identify inverse "
                      "impact emit fmu simulate sweep bench report").split():
             page = subprocess.run([PROGRAM, "--language", "en", "--man", verb], capture_output=True, text=True, check=True)
@@ -264,6 +265,36 @@ class Wheel(unittest.TestCase):
             self.assertTrue(where.startswith(site), told.stderr)
             self.assertAlmostEqual(float(x), math.cos(1), places=8)
             self.assertEqual(float(acceleration), -4)
+
+    def test_a_project_with_the_wheel_is_installed_and_runs_its_own_tests(self):
+        """examples/python_project in an environment of its own, from which nothing is downloaded."""
+        sys.path.insert(0, os.path.join(TESTS, "../python"))
+        import backend
+
+        backend._build = lambda: os.path.dirname(alembert.__file__)
+        try:
+            import ensurepip  # noqa: F401
+            import setuptools  # noqa: F401
+        except ImportError as missing:
+            if NO_SKIP:
+                raise
+            self.skipTest(str(missing))
+        with tempfile.TemporaryDirectory() as folder:
+            here = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+
+            def run(*words, **more):
+                done = subprocess.run(words, cwd=folder, env=here, capture_output=True, text=True, **more)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                return done.stdout
+
+            run(sys.executable, "-m", "venv", "--system-site-packages", "venv")
+            programs = os.path.join(folder, "venv", "bin")
+            here["PATH"] = programs + os.pathsep + here["PATH"]
+            wheel = backend.build_wheel(folder)
+            shutil.copytree(os.path.join(TESTS, "../examples/python_project"), os.path.join(folder, "project"))
+            run(os.path.join(programs, "pip"), "install", "--quiet", "--no-deps", "--no-index", "--no-build-isolation", wheel, "./project")
+            self.assertEqual(run("alembert", "--version"), subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout)
+            run(os.path.join(programs, "python"), "-m", "unittest", "discover", "project/tests")
 
 
 class Expressions(unittest.TestCase):

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "near.hpp"
 #include "program/interpret.hpp"
 #include "program/lower/robot_functions.hpp"
 #include "scenes.hpp"
@@ -26,18 +27,6 @@ inline std::vector<double> values(const FunctionProgram& f, const State<double>&
     for (const int node : f.program.nodes_of(Group::function))
         result.push_back(all[static_cast<std::size_t>(node)]);
     return result;
-}
-
-/// To within `tolerance` of the largest value, or of 1.
-inline void check_near(const std::vector<double>& one, const std::vector<double>& other,
-                       double tolerance = 1e-10) {
-    REQUIRE(one.size() == other.size());
-    double size = 1;
-    for (const double x : other) size = std::max(size, std::abs(x));
-    for (std::size_t i = 0; i < one.size(); ++i) {
-        CAPTURE(i);
-        CHECK(std::abs(one[i] - other[i]) < tolerance * size);
-    }
 }
 
 }  // namespace alembert::test

@@ -65,6 +65,22 @@ const tests = {
     async "several files"() {
         assert.equal((await derive({ files: { "a.toml": pendulum, "b.toml": "no scene" }, scene: "a.toml" })).equations.length, 1);
     },
+    async "files have the names of what is written"() {
+        for (const options of [{ language: "js" }, { language: "c", output: "solver/deep" }]) {
+            const sources = await emit(pendulum, options);
+            assert.ok(sources.files.length > 0 && sources.files.every((name) => name in sources.written), `${sources.files}`);
+        }
+        assert.deepEqual(Object.keys((await simulate(pendulum, { duration: 1, output: "there/motion.csv" })).written), ["there/motion.csv"]);
+    },
+    async "a mistake in a file with a blank in its name"() {
+        await assert.rejects(derive({ files: { "a b.toml": "x =" } }), (problem) => problem.diagnostics.length > 0 && problem.diagnostics[0].file === "a b.toml");
+    },
+    async "workers share the program that is compiled"() {
+        const all = await Promise.all(Array.from({ length: 6 }, () => inWorker()));
+        const found = await Promise.all(all.map((one) => one.derive(pendulum)));
+        for (const { equations } of found) assert.equal(equations.length, 1);
+        await Promise.all(all.map((one) => one.terminate()));
+    },
     async "a mistake in the scene"() {
         const wrong = pendulum.replace("cos(theta)", "cos(thetta)");
         await assert.rejects(derive(wrong), (problem) => problem instanceof AlembertError && problem.code === 3 && problem.diagnostics[0].line === 15

@@ -64,6 +64,23 @@ expect 'a first scene' written pendulum.toml new
 expect 'it does not replace a scene' same new
 cd ..
 
+# A page built by bundlers of npm's registry, where that can be reached, and opened in Chromium: the worker, its end by a signal.
+page() { # FOLDER
+  cat >"$1/index.html" <<<'<!doctype html><meta charset=utf8><title>t</title><pre id=said></pre><script type=module src="./main.js"></script>'
+}
+if npm install --silent --no-save --prefix "$folder/bundlers" vite esbuild >/dev/null 2>&1 && command -v chromium >/dev/null; then
+  mkdir bundled && cp "$root/web/test_page_main.js" bundled/main.js && page bundled
+  ln -s "$folder/user/node_modules" bundled/node_modules
+  bundle() { (cd bundled && "$folder/bundlers/node_modules/.bin/$1" "${@:2}") >/dev/null 2>&1; }
+  expect 'vite builds a page' bundle vite build --logLevel error
+  expect 'the page of vite, in Chromium' node "$root/web/test_page.mjs" bundled/dist
+  expect 'esbuild builds a page and the worker' bundle esbuild main.js node_modules/alembert/worker.js --bundle --format=esm --outdir=by_esbuild --entry-names='[name]'
+  mkdir -p bundled/by_esbuild && page bundled/by_esbuild && cp node_modules/alembert/alembert.wasm bundled/by_esbuild
+  expect 'the page of esbuild, in Chromium' node "$root/web/test_page.mjs" bundled/by_esbuild
+else
+  echo '-      there is no registry here, or no chromium: no page is bundled'
+fi
+
 # The types: by the compiler that is here, or by one from npm's registry, where that can be reached.
 tsc=$(command -v tsc || true)
 if [ -z "$tsc" ] && npm install --silent --no-save --prefix "$folder/typescript" typescript >/dev/null 2>&1; then

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two systems in one program, each in a thread of its own: a controller moves the trolley of a crane by 2 m, and the runtime
-// integrates a pendulum, of which nothing is compiled or loaded while the program runs.
+// Two systems in one program, each in a thread of its own: a controller moves the trolley of a crane by 2 m, and
+// the runtime integrates a pendulum, of which nothing is compiled or loaded while the program runs.
 #include <alembert/runtime.hpp>
 #include <cmath>
 #include <cstdio>
@@ -19,11 +19,12 @@ crane::State stepped(double t, double h, const crane::State& y, const crane::Par
         return at;
     };
     const crane::State k1 = crane::rhs(t, y, par), k2 = crane::rhs(t + h / 2, moved(h / 2, k1), par),
-                       k3 = crane::rhs(t + h / 2, moved(h / 2, k2), par), k4 = crane::rhs(t + h, moved(h, k3), par);
+                       k3 = crane::rhs(t + h / 2, moved(h / 2, k2), par),
+                       k4 = crane::rhs(t + h, moved(h, k3), par);
     crane::State next = moved(h / 6, k1);
     for (int i = 0; i < crane::state_size; ++i)
-        crane::numbers(next)[i] += h / 6 *
-                                   (2 * crane::numbers(k2)[i] + 2 * crane::numbers(k3)[i] + crane::numbers(k4)[i]);
+        crane::numbers(next)[i] +=
+            h / 6 * (2 * crane::numbers(k2)[i] + 2 * crane::numbers(k3)[i] + crane::numbers(k4)[i]);
     return next;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The systems as this program has them: parameters in SI units, whatever the scene gives them in; a torque that is set; the
-// energy; and the tables of the runtime, which are those of the same functions.
+// The systems as this program has them: parameters in SI units, whatever the scene gives them in; a torque that is
+// set; the energy; and the tables of the runtime, which are those of the same functions.
 #include <alembert/runtime.hpp>
 #include <cmath>
 #include <cstdio>
@@ -35,7 +35,8 @@ int main() {
     pendulum::prepare(par);
     const pendulum::State y = pendulum::initial_state, rate = pendulum::rhs(0, y, par);
     check(is_near(rate.theta, y.theta_dot), "the rate of theta");
-    check(is_near(rate.theta_dot, -9.81 / 0.25 * std::sin(y.theta) + 0.1 / (0.2 * 0.25 * 0.25)), "the acceleration");
+    check(is_near(rate.theta_dot, -9.81 / 0.25 * std::sin(y.theta) + 0.1 / (0.2 * 0.25 * 0.25)),
+          "the acceleration");
     const pendulum::Energy energy = pendulum::energy(0, y, rate, par);
     check(is_near(energy.potential, -0.2 * 9.81 * 0.25 * std::cos(y.theta)), "the potential energy");
     check(energy.kinetic == 0, "the kinetic energy at rest");

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "alembert/base/error.hpp"
@@ -24,28 +22,6 @@ struct EmitVerb : SceneOptions {
     EmissionOptions emission;
 };
 
-/// The command without folders, so that the same scene gives the same bytes wherever it stands.
-std::string command_of(const EmitVerb& options) {
-    std::string command = "alembert emit " + std::filesystem::path(options.scene).filename().string();
-    const auto add = [&](const char* name, const std::string& value) {
-        if (!value.empty()) command += fmt::format(" {} {}", name, value);
-    };
-    const auto flag = [&](const char* name, bool is_given) { command += is_given ? std::string(" ") + name : ""; };
-    const EmissionOptions& e = options.emission;
-    if (options.language != "cpp") add("--language", options.language);
-    add("--name", e.name);
-    flag("--standalone", e.standalone);
-    flag("--casadi", e.casadi);
-    flag("--fold", e.fold);
-    flag("--jacobian", e.jacobian);
-    add("--functions", options.functions);
-    for (const std::string& frame : options.frames) add("--frame", frame);
-    for (const std::string& wrench : options.wrenches) add("--wrench", wrench);
-    flag("--batch", e.batch);
-    add("--by", options.by);
-    return command;
-}
-
 int run(const EmitVerb& options) {
     EmissionOptions wishes = options.emission;
     wishes.by = options.by;
@@ -53,7 +29,6 @@ int run(const EmitVerb& options) {
     wishes.frames = options.frames;
     wishes.wrenches = options.wrenches;
     wishes.language = language_of(options.language);
-    wishes.command = command_of(options);
     const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
     std::error_code failed;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "alembert/base/interrupt.hpp"
 #include "algebra/symbolic/fifty_digits.hpp"
 
 namespace alembert {
@@ -79,6 +80,7 @@ ex Mechanism::lagrangian() const {
 }
 
 std::vector<ex> Mechanism::time_derivative(const std::vector<ex>& values) const {
+    ask_whether_wanted();
     Intermediates::Direction direction = along_time(*this);
     append(direction, q, qdot);
     append(direction, qdot, qddot);
@@ -86,6 +88,7 @@ std::vector<ex> Mechanism::time_derivative(const std::vector<ex>& values) const 
 }
 
 std::vector<ex> Mechanism::time_derivative_without_acceleration(const std::vector<ex>& values) const {
+    ask_whether_wanted();
     Intermediates::Direction direction = along_time(*this);
     append(direction, q, qdot);
     return z->push_forward(values, direction);
@@ -101,6 +104,7 @@ bool Mechanism::has_kicks() const {
 }
 
 std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {
+    ask_whether_wanted();
     std::vector<std::pair<ex, ex>> targets;
     for (const Load& load : loads)
         if (load.dissipative == dissipative)

@@ -257,6 +257,9 @@ struct Mechanism {
     /// Do rates jump at an event?
     bool has_kicks() const;
 
+    /// Is the motion more than the integral of its rates? Contacts close, dry friction sticks, events kick.
+    bool has_modes() const { return !unilateral.empty() || !frictions.empty() || has_kicks(); }
+
     /// The settings of [simulation], in parameters; nothing for those that the scene does not give.
     struct Run {
         std::optional<GiNaC::ex> start, duration, tolerance, step, max_step, sample, period;

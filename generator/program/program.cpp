@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "alembert/base/error.hpp"
+#include "alembert/base/interrupt.hpp"
 #include "base/language/say.hpp"
 #include "program/short_lists.hpp"
 
@@ -105,6 +106,7 @@ int Program::intern(const Node& contents) {
     }
     if (const int id = known_.find(h, [&](int known) { return same(nodes_[known], contents); }); id >= 0)
         return id;
+    ask_whether_wanted();
     Node node{.op = contents.op,
               .variable = contents.variable,
               .number = contents.number,
@@ -471,6 +473,7 @@ Program Program::shell() const {
     result.is_textbook = is_textbook;
     result.singular = singular;
     result.friction_on_multipliers = friction_on_multipliers;
+    result.has_norm_terms = has_norm_terms;
     // A copy has about as many nodes; growing in steps would copy each of them with all its lists several times.
     result.nodes_.reserve(nodes_.size());
     result.known_.reserve(nodes_.size());

@@ -271,6 +271,8 @@ public:
     /// Friction takes its normal force from multipliers: Group::mass and Group::forcing lack it, the right-hand
     /// side has it.
     bool friction_on_multipliers = false;
+    /// Group::mass and Group::forcing have the terms c A^T A and c A^T gamma of the norms of quaternions.
+    bool has_norm_terms = false;
 
     /// Throws ModelError for a node with Op::unspecified: the function has no values, and is named.
     [[noreturn]] void refuse_unspecified(const Node& node) const;

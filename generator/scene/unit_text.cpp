@@ -343,6 +343,13 @@ std::optional<UnitMeaning> meaning_of_unit(const std::string& text) {
     return read_unit(plain).meaning;
 }
 
+std::string per_second(const std::string& unit, int times) {
+    if (unit.empty()) return {};
+    const std::string below = times == 1 ? "/s" : fmt::format("/s^{}", times);
+    if (unit == "1" || unit == "-") return "1" + below;
+    return (unit.find_first_of("/ ") == std::string::npos ? unit : "(" + unit + ")") + below;
+}
+
 bool is_known_unit(const std::string& word) {
     if (word.empty() || is_digit(static_cast<unsigned char>(word[0]))) return word == "1";
     return is_certain(read_unit(word));

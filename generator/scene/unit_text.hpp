@@ -55,6 +55,10 @@ UnitReading read_unit(const std::string& text, const OwnUnits& own = {});
 /// Nothing if the text is no unit.
 std::optional<UnitMeaning> meaning_of_unit(const std::string& text);
 
+/// The unit of a derivative by time: "m" → "m/s", "N m" → "(N m)/s^2" for the second; empty for a unit that is not
+/// known.
+std::string per_second(const std::string& unit, int times = 1);
+
 /// Whether this word is a unit after a number: one of the table, with or without a prefix, or several as one.
 bool is_known_unit(const std::string& word);
 

@@ -141,7 +141,7 @@ UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
             if (item.name.text != stem) continue;
             UnitOfName found{.unit = item.unit};
             if (!item.shown.unit.empty()) found = {item.shown.unit, item.shown.size, item.shown.exact};
-            if (is_rate && !found.unit.empty()) found.unit += "/s";
+            if (is_rate) found.unit = per_second(found.unit);
             return found;
         }
         return {};

@@ -2,9 +2,12 @@
 #include "simulate/emission.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
 
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
@@ -40,7 +43,7 @@ std::vector<double> state_in(const Start& start, const Emission& e) {
 /// The main program supports equations and constraints only.
 SourceFile main_program(const Emission& e, const Program& program, CodeLanguage language) {
     const Mechanism& m = e.mechanism;
-    if (!m.unilateral.empty() || m.has_kicks() || !program.nodes_of(Group::slip).empty())
+    if (m.has_modes())
         throw ModelError(
             say("a main program beside the equations follows no contacts, dry friction nor events that change the "
                 "motion, and this scene has some; use 'alembert simulate', or the library"));
@@ -59,34 +62,81 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
         language);
 }
 
-/// The state of the calling example: coordinates that follow from the constraints with 12 digits in the C++
-/// source, so that the same text is written everywhere, and with all in headers and data; none if the scene has no
-/// initial state.
-void add_example(EmitOptions& options, const Emission& e) try {
-    const Start start = start_of(e.mechanism);
-    const std::vector<double> given = state_in(start, e);
-    std::vector<double> state = state_in(assembled(e.mechanism), e);
-    options.t = start.t;
-    options.initial = state;
-    for (std::size_t i = 0; i < state.size() && options.language == CodeLanguage::cpp; ++i)
-        if (state[i] != given[i]) state[i] = std::stod(fmt::format("{:.12g}", state[i]));
-    options.state = state;
-} catch (const ModelError&) {  // the equations hold without one
-}
-
-/// What the scene says of parameters and coordinates: values in units that are not of the SI, and `about`.
-std::map<std::string, std::string> notes_of(const Emission& e) {
-    std::map<std::string, std::string> notes;
+/// What the scene says of parameters, coordinates and speeds.
+std::map<std::string, SceneNote> notes_of(const Emission& e) {
+    std::map<std::string, SceneNote> notes;
     const auto add = [&](const auto& items) {
-        for (const auto& item : items) {
-            std::string& note = notes[item.name.text];
-            if (!item.shown.unit.empty()) note = item.shown.value + " " + item.shown.unit;
-            if (!item.about.empty()) note += (note.empty() ? "" : ", ") + item.about;
-        }
+        for (const auto& item : items)
+            notes[item.name.text] = {item.shown.unit.empty() ? "" : item.shown.value + " " + item.shown.unit,
+                                     item.about};
     };
     add(e.scene.parameters);
     add(e.scene.coordinates);
+    add(e.scene.speeds);
     return notes;
+}
+
+/// The state of the calling example: coordinates that follow from the constraints with 12 digits in the C++
+/// source, so that the same text is written everywhere, and with all in headers and data; none if the scene has no
+/// initial state, without which the equations hold too.
+void add_example(EmitOptions& options, const Emission& e) {
+    const auto begin = [&] {
+        const Start start = start_of(e.mechanism);
+        const std::vector<double> given = state_in(start, e);
+        std::vector<double> state = state_in(assembled(e.mechanism), e);
+        options.t = start.t;
+        options.initial = state;
+        for (std::size_t i = 0; i < state.size(); ++i) {
+            if (state[i] == given[i]) continue;
+            if (i < e.mechanism.q.size()) options.notes[e.mechanism.q[i].get_name()].given.clear();
+            if (options.language == CodeLanguage::cpp) state[i] = std::stod(fmt::format("{:.12g}", state[i]));
+        }
+        options.state = state;
+    };
+    try {
+        begin();
+    } catch (const ModelError&) {
+    } catch (const IntegrationError&) {
+    }
+}
+
+/// A word of a command as a shell takes it.
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,@:+=-";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        if (c == '\'')
+            quoted += "'\"'\"'";  // comments have no backslashes
+        else
+            quoted += c;
+    return quoted + "'";
+}
+
+/// The command that makes the files, without folders, so that the same scene gives the same bytes wherever it
+/// stands.
+std::string command_of(const Scene& scene, const EmissionOptions& options) {
+    const std::string file = std::filesystem::path(scene.file).filename().string();
+    std::string command = "alembert emit " + shell_word(file.starts_with('-') ? "./" + file : file);
+    const auto add = [&](const char* name, const std::string& value) {
+        if (!value.empty()) command += fmt::format(" {} {}", name, shell_word(value));
+    };
+    const auto flag = [&](const char* name, bool is_given) { command += is_given ? std::string(" ") + name : ""; };
+    add("-o", ".");
+    add("--language", options.language == CodeLanguage::c            ? "c"
+                      : options.language == CodeLanguage::javascript ? "js"
+                                                                     : "");
+    add("--name", options.name);
+    flag("--standalone", options.standalone);
+    flag("--casadi", options.casadi);
+    flag("--fold", options.fold);
+    flag("--jacobian", options.jacobian);
+    add("--functions", fmt::format("{}", fmt::join(options.functions, ",")));
+    for (const std::string& frame : options.frames) add("--frame", frame);
+    for (const std::string& wrench : options.wrenches) add("--wrench", wrench);
+    flag("--batch", options.batch);
+    add("--by", options.by);
+    return command;
 }
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
@@ -126,6 +176,17 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
                                                  : dynamics.dynamics(name);
         result.push_back(absorbed(program, function));
     }
+    std::set<std::string> taken;
+    if (e.derivatives) taken.insert({"jacobian", "parameter_jacobian"});
+    for (const NamedFunction& function : result) taken.insert(function.name);
+    const auto add = [&](const std::string& frame, const FunctionProgram& function) {
+        if (!taken.insert(function.name).second)
+            throw ModelError(
+                say("'{}' would be a function of the frame {} and another one too; give that point another name, "
+                    "or leave the other function out",
+                    function.name, in_quotes(frame)));
+        result.push_back(absorbed(program, function));
+    };
     std::map<std::string, std::string> prefixes;
     for (const std::string& frame : options.frames) {
         const std::string prefix = ascii_identifier(frame);
@@ -136,11 +197,10 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
                     in_quotes(known->second), in_quotes(frame), prefix));
         if (!is_new) continue;
         for (const FunctionProgram& f : frame_functions(e.scene, e.mechanism, frame, prefix, options.fold))
-            result.push_back(absorbed(program, f));
+            add(frame, f);
         for (const std::string& name : functions_of_operational_space())
             if (holds(options.functions, name))
-                result.push_back(absorbed(
-                    program, operational_function(e.scene, e.mechanism, frame, prefix, name, options.fold)));
+                add(frame, operational_function(e.scene, e.mechanism, frame, prefix, name, options.fold));
     }
     return result;
 }
@@ -179,12 +239,14 @@ Emission emission(Scene scene, const EmissionOptions& options) {
             say("{} is no name for a file and a namespace; expected letters without accents, digits "
                 "and _, the first of them a letter",
                 in_quotes(options.name)));
+    const std::string command = command_of(scene, options);
     for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
-    if (!e.mechanism.unilateral.empty() || e.mechanism.has_kicks())
-        e.warn("left_out", say("warning: contacts and impulses of events, which change the motion, are left out "
-                               "of emitted functions, "
-                               "which hold between them; 'alembert simulate' and the library follow them\n"));
+    if (e.mechanism.has_modes())
+        e.warn("left_out",
+               say("warning: contacts, dry friction that sticks and impulses of events, which change the "
+                   "motion, are left out of emitted functions, which hold between them; 'alembert "
+                   "simulate' and the library follow them\n"));
     e.choice = lowered(e, options.fold);
     if (options.jacobian || options.casadi) {
         e.derivatives = derivatives_of(e, e.choice.program, {.parameters = true, .power = true}, options.fold);
@@ -199,9 +261,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
                      .language = options.language,
                      .functions = e.functions,
                      .notes = notes_of(e),
-                     .command = options.command,
-                     .has_norms = std::any_of(e.mechanism.constraints.begin(), e.mechanism.constraints.end(),
-                                              [](const Mechanism::Constraint& c) { return c.norm; })};
+                     .command = command};
     add_example(text, e);
     e.source = emit(program, text);
     if (options.standalone) e.main = main_program(e, program, options.language);

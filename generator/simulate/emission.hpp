@@ -15,10 +15,9 @@
 namespace alembert {
 
 struct EmissionOptions {
-    std::string name = {};     ///< of the files, the namespace and what they export; that of the scene if empty
-    std::string command = {};  ///< for the heads of the files: the command that makes them
-    std::string by = {};       ///< a formalism; if empty, the program chooses
-    bool fold = false;         ///< whether parameters become constants
+    std::string name = {};  ///< of the files, the namespace and what they export; that of the scene if empty
+    std::string by = {};    ///< a formalism; if empty, the program chooses
+    bool fold = false;      ///< whether parameters become constants
     /// Whether to add the derivatives of the right-hand side with respect to state and parameters.
     bool jacobian = false;
     bool batch = false;  ///< whether to add the same functions for eight systems at once
@@ -53,8 +52,9 @@ const std::vector<std::string>& all_functions();
 
 /// Throws what `derived` throws; ModelError for a main program of a scene with contacts, dry friction or events
 /// that change the motion, which it would ignore; for a singular system; for derivatives that are too long to be
-/// written out; for functions whose name is unknown, for functions where the state is not (q, q'); for functions
-/// for CasADi in C++ and JavaScript, for a main program in JavaScript, and for a name that is no identifier.
+/// written out; for functions whose name is unknown or that of another function, for functions where the state is
+/// not (q, q'); for functions for CasADi in C++ and JavaScript, for a main program in JavaScript, and for a name
+/// that is no identifier.
 Emission emission(Scene scene, const EmissionOptions& options = {});
 
 }  // namespace alembert

@@ -37,6 +37,7 @@ struct RunOptions {
     std::vector<std::string> sensitivity = {};
     /// What is differentiated: components of the state and outputs; if empty, all components.
     std::vector<std::string> sensitivity_of = {};
+    bool sensitivity_rows = false;  ///< whether also at the times of the rows
 
     /// Called now and then with the current task and the part of it that is done, from 0 to 1.
     std::function<void(std::string_view what, double part)> progress = {};

@@ -26,7 +26,7 @@ void check_smooth_motion(const Mechanism& m, const Program& program) {
                 "leave "
                 "it out",
                 m.redundant[0].name));
-    if (!m.unilateral.empty() || !m.frictions.empty() || m.has_kicks())
+    if (m.has_modes())
         throw ModelError(say(
             "--sensitivity: the scene has contacts, dry friction or events with impulses, at which derivatives "
             "jump; leave these out"));
@@ -157,13 +157,29 @@ Sensitivities::AtEnd Sensitivities::at_end(double t, std::span<const double> sta
     return result;
 }
 
-Sensitivity Sensitivities::at(double end, double tolerance, long budget) const {
-    if (2 * of_.size() <= names_.size() && end > start_.t)
-        if (auto found = backwards(end, tolerance, budget)) return *found;
-    return forwards(end, tolerance, budget);
+Sensitivity Sensitivities::at(double end, const SensitivityOptions& options) const {
+    if (2 * of_.size() <= names_.size() && end > start_.t && options.sample == 0)
+        if (auto found = backwards(end, options)) return *found;
+    return forwards(end, options);
 }
 
 namespace {
+
+/// Tells of the progress after each thousand evaluations.
+class Teller {
+public:
+    Teller(const SensitivityOptions& options, double start, double duration)
+        : options_(options), start_(start), duration_(duration) {}
+    void tell(double t) {
+        if (options_.progress && ++calls_ % 1000 == 0)
+            options_.progress(say("the derivatives"), (t - start_) / duration_);
+    }
+
+private:
+    const SensitivityOptions& options_;
+    double start_, duration_;
+    long calls_ = 0;
+};
 
 /// The system in the time `from` − t.
 System reversed(const System& forwards, Rhs back, double from) {
@@ -199,41 +215,62 @@ Trajectory Sensitivities::integrated(const System& system, const std::vector<dou
     return motion;
 }
 
-Sensitivity Sensitivities::forwards(double end, double tolerance, long budget) const {
+std::vector<std::vector<double>> Sensitivities::values_at(double t, std::span<const double> y) const {
+    const std::size_t N = state_.size();
+    const AtEnd wanted = at_end(t, y.first(N));
+    std::vector<std::vector<double>> values = wanted.by_name;
+    for (std::size_t i = 0; i < of_.size(); ++i)
+        for (std::size_t c = 0; c < columns_.size(); ++c)
+            for (std::size_t k = 0; k < N; ++k) values[i][c] += wanted.by_state[i][k] * y[N + c * N + k];
+    return values;
+}
+
+Sensitivity Sensitivities::forwards(double end, const SensitivityOptions& options) const {
     const std::size_t N = state_.size(), columns = columns_.size();
     const Variation<double> variation(program_, start_.parameters, parameters_);
-    const Rhs both = make_rhs(static_cast<int>(N * (1 + columns)),
-                              [&](double t, const double* y, double* rate) { variation(t, y, rate, columns); });
+    const double duration = end - start_.t;
+    Teller teller(options, start_.t, duration);
+    const Rhs both = make_rhs(static_cast<int>(N * (1 + columns)), [&](double t, const double* y, double* rate) {
+        teller.tell(t);
+        variation(t, y, rate, columns);
+    });
     std::vector<double> y = state_;
     for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
-    const double duration = end - start_.t;
-    const Trajectory motion = integrated(
-        watched(both, end), y,
-        {.start = start_.t, .duration = duration, .tolerance = tolerance, .sample = duration, .budget = budget});
-    const auto last = motion.final_state();
-    const AtEnd wanted = at_end(end, last.first(N));
+    const Trajectory motion = integrated(watched(both, end), y,
+                                         {.start = start_.t,
+                                          .duration = duration,
+                                          .tolerance = options.tolerance,
+                                          .sample = options.sample > 0 ? options.sample : duration,
+                                          .budget = options.budget});
     Sensitivity result{.time = end,
                        .of = of_,
                        .by = names_,
-                       .values = wanted.by_name,
+                       .values = values_at(end, motion.final_state()),
                        .steps = motion.statistics.steps,
                        .evaluations = motion.statistics.evaluations};
-    for (std::size_t i = 0; i < of_.size(); ++i)
-        for (std::size_t c = 0; c < columns; ++c)
-            for (std::size_t k = 0; k < N; ++k) result.values[i][c] += wanted.by_state[i][k] * last[N + c * N + k];
+    for (std::size_t k = 0; k < motion.rows() && options.sample > 0; ++k) {
+        result.times.push_back(motion.times[k]);
+        result.rows.push_back(values_at(motion.times[k], motion.state(k)));
+    }
     return result;
 }
 
 /// Nothing for a stiff motion, which cannot be run backwards.
-std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance, long budget) const {
+std::optional<Sensitivity> Sensitivities::backwards(double end, const SensitivityOptions& wishes) const {
     constexpr long steps_between_rows = 8;
     const std::size_t N = state_.size(), columns = columns_.size(), rows = of_.size();
     const Variation<double> variation(program_, start_.parameters, parameters_);
-    const Rhs alone =
-        make_rhs(static_cast<int>(N), [&](double t, const double* y, double* rate) { variation(t, y, rate, 0); });
     const double duration = end - start_.t;
-    Options options{
-        .start = start_.t, .duration = duration, .tolerance = tolerance, .sample = duration, .budget = budget};
+    Teller teller(wishes, start_.t, 3 * duration);  // there twice, and back
+    const Rhs alone = make_rhs(static_cast<int>(N), [&](double t, const double* y, double* rate) {
+        teller.tell(t);
+        variation(t, y, rate, 0);
+    });
+    Options options{.start = start_.t,
+                    .duration = duration,
+                    .tolerance = wishes.tolerance,
+                    .sample = duration,
+                    .budget = wishes.budget};
     const System forwards = watched(alone, end);
     const Statistics counted = integrated(forwards, state_, options).statistics;
     if (counted.switched) return std::nullopt;
@@ -257,14 +294,15 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance
         const double from = motion.times[k];
         std::copy(motion.state(k).begin(), motion.state(k).end(), y.begin());
         const Rhs back = make_rhs(static_cast<int>(y.size()), [&](double s, const double* now, double* rate) {
+            teller.tell(end + 2 * (end - from));
             variation.backwards(from - s, now, rate, rows);
         });
         const double length = from - motion.times[k - 1];
         const Trajectory piece = integrated(reversed(forwards, back, from), y,
                                             {.duration = length,
-                                             .tolerance = tolerance,
+                                             .tolerance = wishes.tolerance,
                                              .sample = length,
-                                             .budget = std::max(1L, budget - result.evaluations)});
+                                             .budget = std::max(1L, wishes.budget - result.evaluations)});
         y.assign(piece.final_state().begin(), piece.final_state().end());
         result.steps += piece.statistics.steps;
         result.evaluations += piece.statistics.evaluations;

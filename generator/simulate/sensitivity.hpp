@@ -5,6 +5,7 @@
 ///
 ///     const Run run = simulate(scene, {.duration = 3, .sensitivity = {"theta1", "l1"}});
 ///     run.sensitivity->values[0][1];      // ∂(theta1 at the end)/∂l1
+///     run.sensitivity->rows[5][0][1];     // at times[5], with .sensitivity_rows = true
 ///
 /// The variational equations Φ' = ∂f/∂x Φ + ∂f/∂p are integrated together with the motion by dop853, under the
 /// control of the errors of both (Hairer, Nørsett & Wanner, Solving ODEs I, §I.14). Where few quantities are
@@ -16,6 +17,7 @@
 /// initial values that the scene writes with it change too. With constraints, guesses follow at the start
 /// (analysis/state/start_derivatives.hpp), and the columns of Φ stay tangent to the constraints.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,8 +33,17 @@ struct Sensitivity {
     double time = 0;                          ///< of the end, in s
     std::vector<std::string> of, by;          ///< names of the quantities at the end, and of what is varied
     std::vector<std::vector<double>> values;  ///< [of][by], in the scene's units
-    bool adjoint = false;                     ///< whether the adjoint equations gave them
-    long steps = 0, evaluations = 0;          ///< of all integrations, forwards and backwards
+    std::vector<double> times = {};           ///< of the rows, if these were asked for
+    std::vector<std::vector<std::vector<double>>> rows = {};  ///< [time][of][by]; the last are `values`
+    bool adjoint = false;                                     ///< whether the adjoint equations gave them
+    long steps = 0, evaluations = 0;                          ///< of all integrations, forwards and backwards
+};
+
+struct SensitivityOptions {
+    double tolerance = 1e-9;
+    long budget = 10'000'000;
+    double sample = 0;                                                      ///< s between rows; 0 for none
+    std::function<void(std::string_view what, double part)> progress = {};  ///< may be empty
 };
 
 class Sensitivities {
@@ -45,7 +56,7 @@ public:
                   const std::vector<std::string>& names, const std::vector<std::string>& of);
 
     /// At the time `end`. Throws IntegrationError if the equations cannot be integrated to it.
-    Sensitivity at(double end, double tolerance, long budget) const;
+    Sensitivity at(double end, const SensitivityOptions& options) const;
 
 private:
     /// The derivatives of what is wanted, at the end itself: [of][state], [of][name].
@@ -55,8 +66,10 @@ private:
 
     void find_wanted(const Program& program, const std::vector<std::string>& of);
     AtEnd at_end(double t, std::span<const double> state) const;
-    Sensitivity forwards(double end, double tolerance, long budget) const;
-    std::optional<Sensitivity> backwards(double end, double tolerance, long budget) const;
+    /// ∂(what is wanted)/∂name at t, of the state and the columns of Φ after it.
+    std::vector<std::vector<double>> values_at(double t, std::span<const double> state_and_columns) const;
+    Sensitivity forwards(double end, const SensitivityOptions& options) const;
+    std::optional<Sensitivity> backwards(double end, const SensitivityOptions& options) const;
     System watched(Rhs rhs, double end) const;
     Trajectory integrated(const System& system, const std::vector<double>& start, Options options) const;
 

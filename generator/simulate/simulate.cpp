@@ -120,7 +120,11 @@ public:
         refuse_start_without_energy(free);
         if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
         if (sensitivities_ && !run_.motion.failure)
-            run_.sensitivity = sensitivities_->at(run_.motion.final_time(), options_.tolerance, wishes_.budget);
+            run_.sensitivity = sensitivities_->at(
+                run_.motion.final_time(), {.tolerance = options_.tolerance,
+                                           .budget = wishes_.budget,
+                                           .sample = wishes_.sensitivity_rows ? sample_interval(options_) : 0,
+                                           .progress = wishes_.progress});
         describe(modes, free);
     }
 

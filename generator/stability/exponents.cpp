@@ -85,7 +85,7 @@ private:
 };
 
 void check_smooth(const Mechanism& m) {
-    if (!m.unilateral.empty() || !m.frictions.empty() || m.has_kicks())
+    if (m.has_modes())
         throw ModelError(say(
             "Lyapunov exponents are computed for smooth motions; this scene has contacts, dry friction or events "
             "with impulses, at which the variational equations jump"));

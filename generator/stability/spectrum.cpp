@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "alembert/base/interrupt.hpp"
 #include "program/univariate.hpp"
 
 namespace alembert {
@@ -88,6 +89,7 @@ std::vector<ComplexQuad> approximate(const std::vector<Quad>& p) {
     for (int round = 0; round < 300; ++round) {
         bool moved = false;
         for (int i = 0; i < n; ++i) {
+            ask_whether_wanted();
             const auto [value, slope] = with_slope(z[i]);
             if (square(value) == 0) continue;
             if (square(slope) == 0) {

@@ -20,8 +20,8 @@ from . import _alembert
 from ._alembert import EnvironmentFailure, Error, IntegrationError, ModelError, SceneError
 from ._motion import Run, Swept
 from ._results import (
-    Agreed, Audited, Checked, Derivation, Drawn, Equation, Equilibria, Figure, Marked, Result, SceneWarning,
-    Sources, Stability)  # yapf: disable
+    Agreed, Audited, Checked, Derivation, Drawn, Equation, Equilibria, Figure, Linearized, Marked, Result, SceneWarning,
+    SINumber, Sources, Stability)  # yapf: disable
 from ._scene import Scene
 from ._system import Robot, RobotFunction, System
 from .expressions import from_sympy, to_sympy
@@ -29,8 +29,8 @@ from .expressions import from_sympy, to_sympy
 __version__ = _alembert.version
 __all__ = [
     "Agreed", "Audited", "Checked", "Derivation", "Drawn", "EnvironmentFailure", "Equation", "Equilibria", "Error",
-    "Figure", "IntegrationError", "Marked", "ModelError", "Result", "Robot", "RobotFunction", "Run", "Scene", "SceneError",
-    "SceneWarning", "Sources", "Stability", "Swept", "System", "from_sympy", "to_sympy",
+    "Figure", "IntegrationError", "Linearized", "Marked", "ModelError", "Result", "Robot", "RobotFunction", "Run", "SINumber",
+    "Scene", "SceneError", "SceneWarning", "Sources", "Stability", "Swept", "System", "from_sympy", "to_sympy",
 ]  # yapf: disable
 for _name in __all__:  # where users find them, and where pickles look for them
     globals()[_name].__module__ = "alembert"

@@ -55,6 +55,11 @@ class Run(Result):
         return self["t"]
 
     @property
+    def contacts(self):
+        """What happened at contacts and where friction sticks; empty for a scene without."""
+        return self.json.get("contacts", [])
+
+    @property
     def units(self):
         """The SI units of coordinates and speeds by name, of those that have one; their rates are in these over s. All
         numbers are in SI units, whatever the units of the scene; plots and printed text have those."""
@@ -95,7 +100,8 @@ class Swept(Result):
 
     def __init__(self, json, text, columns, table, shape):
         super().__init__(json, text)
-        self.columns = columns
+        # The end of a quantity that is varied itself has a name of its own.
+        self.columns = [f"final_{name}" if name in columns[:k] else name for k, name in enumerate(columns)]
         self.table = table
         self._shape = shape
 

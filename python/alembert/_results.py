@@ -6,6 +6,7 @@ import itertools as _itertools
 import json as _json
 import math as _math
 import os as _os
+import sys as _sys
 import warnings as _warnings
 
 from . import _alembert
@@ -18,8 +19,11 @@ class SceneWarning(UserWarning):
 
 def warn(said):
     """Warnings of the program become warnings of the line that called the package."""
+    frame, level = _sys._getframe(), 1
+    while frame is not None and _os.path.dirname(frame.f_code.co_filename) == _os.path.dirname(__file__):
+        frame, level = frame.f_back, level + 1
     for one in said:
-        _warnings.warn(one.strip(), SceneWarning, stacklevel=4)
+        _warnings.warn(one.strip(), SceneWarning, stacklevel=level)
 
 
 def write(path, content):
@@ -28,9 +32,39 @@ def write(path, content):
         file.write(content if isinstance(content, bytes) else content.encode())
 
 
+class SINumber(float):
+    """A number that a result gives in a unit of the SI, which it knows: `at=result.coordinates` sets the same state in a
+    scene whose own unit is degrees. In arithmetic it is a plain number."""
+
+    def __new__(cls, value, unit):
+        self = super().__new__(cls, value)
+        self.unit = unit
+        return self
+
+    def __getnewargs__(self):
+        return float(self), self.unit
+
+
+def _with_units(json, units):
+    """The numbers of coordinates, rates and speeds of a state know their units."""
+    for kind, over in (("coordinates", ""), ("rates", "/s"), ("speeds", "")):
+        values = json.get(kind)
+        if not isinstance(values, dict):
+            continue
+        for name, value in values.items():
+            if name in units and isinstance(value, float):
+                unit = units[name]
+                values[name] = SINumber(value, f"({unit}){over}" if over and not unit.isalpha() else unit + over)
+
+
 def values_at(at):
     """`{"theta": 0.3, "m": "pi/2"}` as the NAME=VALUE of the command line."""
-    return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in (at or {}).items()]
+    def text(value):
+        if isinstance(value, SINumber):
+            return f"{float(value)!r} {value.unit}"
+        return value if isinstance(value, str) else repr(float(value))
+
+    return [f"{name}={text(value)}" for name, value in (at or {}).items()]
 
 
 def axis(over):
@@ -120,6 +154,9 @@ class Result:
     command prints."""
 
     def __init__(self, json, text="", files=None):
+        for state in (json, json.get("final")):
+            if isinstance(state, dict):
+                _with_units(state, json.get("units", {}))
         self.json = json
         self._text = text
         self._files = files or {}
@@ -171,6 +208,18 @@ class Marked(Result):
         _alembert.need_form(_os.fspath(path), "page")
         write(path, self.html)
 
+    def _repr_html_(self):
+        """A row for each line; `.html` is the page with the whole text."""
+        def row(line):
+            status, colour = line["status"].replace("_", " "), {"right": "#00664b", "mistake": "#a63c00"}.get(line["status"], "#595959")
+            said = " ".join(part for part in (line.get("right") and f"correct: {line['right']}", line.get("reason")) if part)
+            return (f"<tr><td>{line['line']}</td><td style='color:{colour}'><b>{status}</b></td>"
+                    f"<td style='text-align:left'><code>{_html.escape(line['source'])}</code></td>"
+                    f"<td style='text-align:left'>{_html.escape(said)}</td></tr>")
+
+        rows = "".join(map(row, self.json["lines"]))
+        return f"<table><tr><th>line</th><th>status</th><th>source</th><th></th></tr>{rows}</table>{super()._repr_html_()}"
+
     def __bool__(self):
         """True if there is no mistake."""
         return self.json["first_mistake"] is None
@@ -190,6 +239,27 @@ class Stability(Result):
 
 class Equilibria(Result):
     """Equilibria and steady motions, each with its coordinates and what is known of its stability."""
+
+
+class Linearized(Result):
+    """Matrices and eigenvalues; a notebook shows them as formulas."""
+
+    def _repr_html_(self):
+        matrices = self.json.get("matrices")
+        if not isinstance(matrices, dict):
+            return super()._repr_html_()
+        shown = " ".join(_matrix(name, rows) for name, rows in matrices.items() if rows and rows[0])
+        return f"<div>{shown}</div>{super()._repr_html_()}"
+
+
+def _matrix(name, rows):
+    """A matrix as MathML."""
+    def entry(value):
+        return f"<mtd><mn>{_html.escape(value if isinstance(value, str) else f'{value:.6g}')}</mn></mtd>"
+
+    table = "".join(f"<mtr>{''.join(map(entry, row))}</mtr>" for row in rows)
+    return (f'<math display="block"><mi>{_html.escape(name)}</mi><mo>=</mo><mrow><mo>(</mo><mtable>{table}</mtable>'
+            "<mo>)</mo></mrow></math>")
 
 
 class Drawn(Result):

@@ -8,10 +8,11 @@ from collections.abc import Mapping as _Mapping
 from . import _alembert
 from ._motion import Run, Swept
 from ._results import (
-    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Marked, Result, Sources, Stability, ask, axis, listed,
-    numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
+    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Linearized, Marked, Result, Sources, Stability, ask, axis,
+    listed, numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
 from ._system import Robot, System
 from ._toml import to_toml
+from .expressions import from_sympy
 
 #: What `Scene.robot` takes if nothing is named.
 ROBOT_FUNCTIONS = ("inverse", "mass", "bias", "gravity", "loads", "mass_inverse", "com", "com_jacobian", "momentum")
@@ -70,9 +71,11 @@ class Scene:
         return self._ask("draw", lambda json, text, files: Figure(files["svg"].decode()))
 
     def check(self, claims=None, *, by=""):
-        """Claims held against the derived equations: a text with an equation a line, or the scene's own."""
+        """Claims held against the derived equations: a text with an equation a line, an equation of SymPy, or a list of
+        such; the scene's own if there are none."""
         if claims is not None and not isinstance(claims, str):
-            claims = "\n".join(claims)
+            listed_claims = [claims] if hasattr(claims, "free_symbols") else claims
+            claims = "\n".join(one if isinstance(one, str) else from_sympy(one) for one in listed_claims)
         return self._ask("check", Checked, claims=claims, by=by)
 
     def mark(self, derivation, *, letters=None, by=""):
@@ -138,7 +141,7 @@ class Scene:
         """Matrices and eigenvalues near an equilibrium or a steady motion. With `affine`, about any state:
         x' = A dx + B du + c, `c` besides `matrices`. With `along`, about the motion from the state: `along` is a list of
         such rows with their `time` and `x`, as many as `duration` and `sample` make."""
-        return self._ask("linearize", at=values_at(at), by=by, affine=affine, along=along,
+        return self._ask("linearize", Linearized, at=values_at(at), by=by, affine=affine, along=along,
                          **numbers(duration=duration, tolerance=tolerance, sample=sample))
 
     def stability(self, at=None, *, by="", period=0.0, lyapunov=""):
@@ -161,7 +164,7 @@ class Scene:
 
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
                  budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare="", code="",
-                 sensitivity=(), sensitivity_of=(), regularize=False, tuning=True):
+                 sensitivity=(), sensitivity_of=(), sensitivity_rows=False, regularize=False, tuning=True):
         """Integrates the motion. What is not given is the scene's. With `poincare="theta1 = 0"` the result has the
         crossings of that section. `code` is "memory" or "compiled" where the choice is not left to the program. With
         `sensitivity=["theta1", "l1"]` the result has the derivatives of the state at the end by these:
@@ -171,7 +174,7 @@ class Scene:
         alone, as on every other machine."""
         given = numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
         return Run((self.text, self.name, by, method, list(given.values()), int(budget), estimate, reactions, fast_math,
-                    poincare, code, list(sensitivity), list(sensitivity_of), regularize, tuning))
+                    poincare, code, list(sensitivity), list(sensitivity_of), sensitivity_rows, regularize, tuning))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
               budget=10_000_000, by="", threads=0, code="", fast_math=False, along=(), reduce=(), samples=None,

@@ -74,6 +74,11 @@ class System:
     def __call__(self, t, y):
         return self.rhs(t, y)
 
+    def __repr__(self):
+        speeds = ", ".join(self.speeds) if self.speeds else "their rates"
+        parameters = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())
+        return f"{type(self).__name__}(y = {', '.join(self.coordinates)}, then {speeds}; parameters: {parameters or 'none'})"
+
 
 _MATRICES = ("mass", "mass_inverse", "coriolis", "jacobian", "regressor")  # even of one row and one column
 

@@ -36,6 +36,8 @@ from reference import Reference, coordinate_names, on_constraints
 
 MOST_OVER = 4  # an error told is no bound, but a difference of two runs: docs/accuracy.md counts how often it is exceeded
 
+FLOAT = 2.0**29  # how much coarser floats are than doubles
+
 FORMALISMS = ["lagrange", "lagrange1", "routh", "kane", "dalembert", "appell", "maggi", "nielsen", "hamilton", "routhian",
               "schiehlen", "roberson-wittenburg", "recursive"]
 
@@ -99,6 +101,8 @@ class Examination:
                 if k == 0:
                     return
         self._formalisms(expected)
+        if self.options.web and self.rng.random() < 0.3:
+            self._in_web_assembly(*expected[0])
         if self.options.compile(self.rng):
             self._emitted(expected)
         if self.rng.random() < 0.3 and not self.scene.get("unilateral") and not self.scene.get("friction"):
@@ -132,6 +136,13 @@ class Examination:
                     raise Failure(way, f"ends with {no.code}: {no}") from None
                 self._compare(way, told["accelerations"], values, allowed)
 
+    def _in_web_assembly(self, _, values, allowed):
+        try:
+            told = self.door.in_web_assembly(self.options.web)
+        except Refused as no:
+            raise Failure("WebAssembly", f"ends with {no.code}: {no}") from None
+        self._compare("WebAssembly", told["accelerations"], values, allowed)
+
     def _rates(self, state, values):
         """State and rate of the emitted functions: (q, q') or (q, u)."""
         if "speeds" in self.scene:
@@ -148,18 +159,43 @@ class Examination:
                 results = self.door.compiled(language, rows, *options)
             except Refused as no:
                 raise Failure(way, f"ends with {no.code}: {no}") from None
-            for (_, values, allowed), result in zip(expected, results):
-                self._compare(way, dict(zip(self.q, result[len(self.q):])), values, allowed)
+            self._rows(way, results, expected)
+        self._by_other_ways(rows, expected)
+
+    def _rows(self, way, results, expected, more=1.0):
+        """Rates row by row; `more` is how much coarser the numbers are than doubles."""
+        for (_, values, allowed), result in zip(expected, results):
+            self._compare(way, dict(zip(self.q, result[len(self.q):])), values, more * allowed)
+
+    def _by_other_ways(self, rows, expected):
+        """Floats, headers of two systems in one program, JavaScript, Systems of Python."""
+        ways = [("emit c, floats", lambda: self.door.in_floats(rows)), ("two systems by headers", lambda: self.door.two_systems(rows))]
+        if shutil.which("node"):
+            ways.append(("emit js", lambda: self.door.in_node(rows)))
+        for python in self.options.python if self.options.package else []:
+            ways.append((f"System, {python}", lambda python=python: self.door.by_system(self.options.package, python, rows)))
+        for way, run in ways:
+            try:
+                results = run()
+            except Refused as no:
+                raise Failure(way, f"ends with {no.code}: {no}") from None
+            if way.startswith("two"):
+                self._rows(way, results[::2], expected)
+                self._rows(way, results[1::2], expected)
+            else:
+                self._rows(way, results, expected, FLOAT if "floats" in way else 1)
 
     def _exchange(self, expected):
         _, values, allowed = expected
         if "speeds" in self.scene:
             return
+        version = self.rng.choice([2, 3])
+        way = f"model exchange {version}"
         try:
-            result = self.door.exchange(2 * len(self.q))
+            result = self.door.exchange(version, 2 * len(self.q))
         except (Refused, doors.UnitFailed) as no:
-            raise Failure("model exchange", str(no)) from None
-        self._compare("model exchange", dict(zip(self.q, result[len(self.q):])), values, allowed)
+            raise Failure(way, str(no)) from None
+        self._compare(way, dict(zip(self.q, result[len(self.q):])), values, allowed)
 
     # -- motions
 
@@ -377,6 +413,8 @@ def parsed():
     parser = argparse.ArgumentParser(description="random scenes, and one number of each by all ways out of the program")
     parser.add_argument("--program", required=True)
     parser.add_argument("--package", help="folder of the Python package")
+    parser.add_argument("--python", action="append", help="an interpreter, for its NumPy; may be repeated; default: /usr/bin/python3")
+    parser.add_argument("--web", help="folder of the program as WebAssembly (web/build.sh); default: build/web, where there is one")
     parser.add_argument("--folder", default="build/cross")
     parser.add_argument("--seed", type=int, default=1, help="the first")
     parser.add_argument("--scenes", type=int, help="how many; otherwise as many as --seconds allow")
@@ -388,6 +426,9 @@ def parsed():
     parser.add_argument("--shrink", type=float, default=30, help="seconds for the smallest scene of a failure")
     options = parser.parse_args()
     options.only = options.only.split(",")
+    options.python = options.python or ["/usr/bin/python3"]
+    if options.web is None and os.path.exists("build/web/alembert.wasm") and shutil.which("node"):
+        options.web = "build/web"
     options.compile = lambda rng: rng.random() < options.compiled
     os.makedirs(options.folder, exist_ok=True)
     return options

@@ -91,6 +91,73 @@ int main() {{
         values = [float(line) for line in self.run(os.path.join(out, "main")).split()]
         return [values[k * size:(k + 1) * size] for k in range(len(states))]
 
+    def in_floats(self, states):
+        """The same in C, whose numbers are floats."""
+        out = os.path.join(self.folder, "c")  # `compiled` has written there
+        command = ["cc", "-std=c99", "-O1", "-DALEMBERT_REAL=float"]
+        with open(os.path.join(out, "main.c"), encoding="utf-8") as file:
+            source = file.read().replace("static const double states", "static const float states").replace("double par[", "float par[")
+        with open(os.path.join(out, "floats.c"), "w", encoding="utf-8") as file:
+            file.write(source)
+        self.run("env", "-C", out, *command, "floats.c", "scene.c", "-lm", "-o", "floats")
+        size, values = len(states[0]), [float(line) for line in self.run(os.path.join(out, "floats")).split()]
+        return [values[k * size:(k + 1) * size] for k in range(len(states))]
+
+    def two_systems(self, states):
+        """The rates by headers, in a program with two systems: this one and the same with its parameters as constants. Twice as many rows."""
+        out = os.path.join(self.folder, "two")
+        self.run(self.program, "emit", self.scene, "-o", out)
+        self.run(self.program, "emit", self.scene, "-o", out, "--name", "other", "--fold")
+        size = len(states[0])
+        rows = ", ".join("{" + ", ".join(repr(float(x)) for x in state) + "}" for state in states)
+        with open(os.path.join(out, "main.cpp"), "w", encoding="utf-8") as file:
+            file.write(f'''#include <cstdio>
+#include "other.hpp"
+#include "scene.hpp"
+static const double states[][{size}] = {{{rows}}};
+template <typename State> void print(const State& rate) {{
+    for (int i = 0; i < {size}; ++i) std::printf("%.17g\\n", reinterpret_cast<const double*>(&rate)[i]);
+}}
+int main() {{
+    for (const auto& state : states) {{
+        scene::State one;
+        other::State two;
+        for (int i = 0; i < {size}; ++i) scene::numbers(one)[i] = other::numbers(two)[i] = state[i];
+        print(scene::rhs(0, one, scene::defaults()));
+        print(other::rhs(0, two, other::defaults()));
+    }}
+}}
+''')
+        self.run("env", "-C", out, "c++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", "main.cpp", "scene.cpp", "other.cpp", "-o", "main")
+        values = [float(line) for line in self.run(os.path.join(out, "main")).split()]
+        return [values[k * size:(k + 1) * size] for k in range(2 * len(states))]
+
+    def in_node(self, states):
+        """By the module of JavaScript."""
+        out = os.path.join(self.folder, "js")
+        self.run(self.program, "emit", self.scene, "-o", out, "--language", "js")
+        with open(os.path.join(out, "main.mjs"), "w", encoding="utf-8") as file:
+            file.write('import * as scene from "./scene.mjs";\n'
+                       f"for (const state of {json.dumps([[float(x) for x in state] for state in states])}) {{\n"
+                       f"  const par = scene.defaults(), rate = new Float64Array({len(states[0])});\n"
+                       "  scene.rhs(0, state, par, rate);\n  console.log(JSON.stringify([...rate]));\n}\n")
+        return [json.loads(line) for line in self.run("node", os.path.join(out, "main.mjs")).splitlines()]
+
+    def by_system(self, package, python, states):
+        """By a System of the Python package; `python` is an interpreter, with one NumPy or another."""
+        script = ("import sys, json, alembert\nsystem = alembert.Scene(sys.argv[1]).system()\n"
+                  "print(json.dumps(system.rhs(0.0, json.loads(sys.argv[2])).tolist()))")
+        words = json.dumps([[float(x) for x in state] for state in states])
+        return json.loads(self.run("env", *([f"PYTHONPATH={package}"] if package else []), python, "-W", "ignore", "-c", script, self.scene, words))
+
+    def in_web_assembly(self, folder, *options):
+        """`eval` by the program as WebAssembly, which web/build.sh puts into a folder."""
+        script = ('const [folder, scene, ...options] = process.argv.slice(1);'
+                  'const { readFileSync } = await import("node:fs"), { run } = await import(`${folder}/alembert.mjs`);'
+                  'const told = await run(["eval", "scene.toml", ...options, "--json"], { "scene.toml": readFileSync(scene, "utf-8") });'
+                  'process.stdout.write(told.stdout); process.stderr.write(told.stderr); process.exitCode = told.code;')
+        return json.loads(self.run("node", "--input-type=module", "-e", script, os.path.abspath(folder), self.scene, *options))
+
     # -- motions: {"state": {name or name': value at the end}, "error": told or None, "events": [(name, time)] or None}
 
     def simulate(self, *options):
@@ -118,12 +185,12 @@ int main() {{
             at = to
         return {"state": {name + dot: unit.get(f"der({name})" if dot else name) for name in coordinates for dot in ("", "'")}}
 
-    def exchange(self, size):
+    def exchange(self, version, size):
         """The rates of the start by model exchange."""
-        path = os.path.join(self.folder, "scene2.fmu")
+        path = os.path.join(self.folder, f"scene{version}.fmu")
         if not os.path.exists(path):
-            self.run(self.program, "fmu", self.scene, "-o", path)
-        return Unit(path, 2, 1e-9, exchange=True).derivatives(size)
+            self.run(self.program, "fmu", self.scene, "-o", path, "--fmi", str(version))
+        return Unit(path, version, 1e-9, exchange=True).derivatives(size)
 
     def standalone(self, coordinates, duration, tolerance):
         """The C program of the scene."""

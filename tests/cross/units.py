@@ -59,9 +59,9 @@ class Unit:
         if not self.me:
             raise UnitFailed("no instance")
         self._call(f"fmi{version}ExitInitializationMode")
-        if exchange and version == 2:
+        if exchange:
             self._settle()
-            self._call("fmi2EnterContinuousTimeMode")
+            self._call(f"fmi{version}EnterContinuousTimeMode")
 
     def _call(self, name, *values):
         status = getattr(self.library, name)(self.me, *values)
@@ -72,8 +72,11 @@ class Unit:
         class EventInfo(ctypes.Structure):
             _fields_ = [(n, c_int) for n in "abcde"] + [("next", c_double)]
 
-        info = EventInfo()
-        self._call("fmi2NewDiscreteStates", byref(info))
+        info, flags, next_time = EventInfo(), [c_bool() for _ in range(5)], c_double()
+        if self.version == 2:
+            self._call("fmi2NewDiscreteStates", byref(info))
+        else:
+            self._call("fmi3UpdateDiscreteStates", *map(byref, flags), byref(next_time))
 
     def step(self, time, length):
         if self.version == 2:
@@ -93,5 +96,5 @@ class Unit:
 
     def derivatives(self, count):
         values = (c_double * count)()
-        self._call("fmi2GetDerivatives", values, c_size_t(count))
+        self._call("fmi2GetDerivatives" if self.version == 2 else "fmi3GetContinuousStateDerivatives", values, c_size_t(count))
         return list(values)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each verb of the command line as a function: a scene in, the JSON object of the verb out. Verbs and options are those that
 // the program names itself (verbs.js is made from it).
-import { run } from "./alembert.mjs";
+import { load, run } from "./alembert.mjs";
 import { aliases, verbs, version } from "./verbs.js";
 
 export { load, prepare, run } from "./alembert.mjs";
@@ -9,22 +9,24 @@ export { version };
 
 /// What the program says where it gives no result: exit codes 3 (the input), 4 (the numbers), 5 (the environment).
 export class AlembertError extends Error {
-    constructor(answer, result) {
+    constructor(answer, result, names = []) {
         super(answer.stderr.trim() || `the program ended with ${answer.code}`);
         this.name = "AlembertError";
         this.code = answer.code;
-        this.diagnostics = diagnostics_of(answer.stderr);
+        this.diagnostics = diagnostics_of(answer.stderr, names);
         this.result = result;
         this.written = answer.files;
     }
 }
 
-function diagnostics_of(stderr) {
+/// `names` are those of the files that the program had, which may have blanks in them.
+function diagnostics_of(stderr, names) {
     const found = [];
     for (const line of stderr.split("\n")) {
-        const place = /^([^\s:]+):(\d+):(?:(\d+):)? (.*)$/.exec(line);
-        if (place && !place[4].startsWith("warning:"))
-            found.push({ file: place[1], line: Number(place[2]), column: Number(place[3] ?? 1), message: place[4] });
+        const file = names.find((name) => line.startsWith(`${name}:`)) ?? /^[^\s:]+/.exec(line)?.[0];
+        const place = file && /^:(\d+):(?:(\d+):)? (.*)$/.exec(line.slice(file.length));
+        if (place && !place[3].startsWith("warning:"))
+            found.push({ file, line: Number(place[1]), column: Number(place[2] ?? 1), message: place[3] });
     }
     return found;
 }
@@ -101,7 +103,7 @@ function command_of(verb, fixed, source, options) {
     const words = [verb];
     const given = { ...fixed, ...options };
     for (const name of OWN) delete given[name];
-    if (verb === "new") return { words: ["new", "pendulum.toml", "--json", ...rest_of(verb, given)], files: {} };
+    if (verb === "new") return { words: ["new", "pendulum.toml", "--json", ...rest_of(verb, given)], files: {}, folders: [] };
     const { files, scene } = taken(verb, source);
     words.push(scene);
     let rest = with_files(verb, given, files);
@@ -112,20 +114,34 @@ function command_of(verb, fixed, source, options) {
     }
     if (verb === "emit" && !rest.output && !rest.o && !rest.fmu) rest = { ...rest, output: "." };
     if (verb === "import" && !rest.output) rest = { ...rest, output: "scene.toml" };
-    return { words: [...words, "--json", ...rest_of(verb, rest)], files };
+    return { words: [...words, "--json", ...rest_of(verb, rest)], files, folders: folders_of(verb, rest) };
+}
+
+/// The folders in which the program is to write.
+function folders_of(verb, options) {
+    const folders = [];
+    for (const [name, value] of Object.entries(options)) {
+        const end = verbs[verb].options[dashed(name)]?.file && typeof value === "string" ? value.lastIndexOf("/") : -1;
+        if (end > 0) folders.push(value.startsWith("/") ? value.slice(0, end) : `/scene/${value.slice(0, end)}`);
+    }
+    return folders;
 }
 
 const rest_of = (verb, options) => Object.entries(options).flatMap(([name, value]) => name === "json" ? [] : words_of(verb, name, value));
 
 /// The JSON object, with what is no part of it beside it: the files `written`, the `exitCode`, and what was `told` as warnings.
-function result_of(answer) {
+function result_of(answer, names) {
     let result;
     try {
         result = JSON.parse(answer.stdout);
     } catch {
         result = answer.code <= 2 ? { text: answer.stdout } : undefined;
     }
-    if (answer.code > 2) throw new AlembertError(answer, result);
+    if (answer.code > 2) throw new AlembertError(answer, result, names);
+    // By the same names as in `written`.
+    const plain = (name) => (typeof name === "string" ? name.replace(/^(\.\/)+/, "") : name);
+    if (Array.isArray(result.files)) result.files = result.files.map(plain);
+    if (typeof result.file === "string") result.file = plain(result.file);
     for (const [name, value] of Object.entries({ written: answer.files, exitCode: answer.code, told: answer.stderr }))
         Object.defineProperty(result, name, { value });
     return result;
@@ -136,8 +152,8 @@ function functions_with(runner) {
     const add = (name, verb, fixed) => {
         made[name] = async (source, options = {}) => {
             if (verb === "new" && source && typeof source === "object") [source, options] = [undefined, source];
-            const { words, files } = command_of(verb, fixed, source, options);
-            return result_of(await runner(words, files, options));
+            const { words, files, folders } = command_of(verb, fixed, source, options);
+            return result_of(await runner(words, files, options, { folders }), Object.keys(files));
         };
         Object.defineProperty(made[name], "name", { value: name });
     };
@@ -147,14 +163,19 @@ function functions_with(runner) {
     return made;
 }
 
+/// Node 18 and 20 have no Worker of their own outside of this module, whose name bundlers for browsers must not see.
+async function worker_of_node() {
+    const name = "node:worker_threads", { Worker } = await import(/* @vite-ignore */ /* webpackIgnore: true */ name);
+    return new Worker(new URL("./worker.js", import.meta.url));
+}
+
 /// The functions of this module in a worker of their own: a thread that long work does not take from the caller.
 ///
 ///     const away = await inWorker();
 ///     try { await away.simulate(scene, { duration: 1000 }); } finally { await away.terminate(); }
 export async function inWorker() {
-    const place = new URL("./worker.js", import.meta.url);
-    const worker = globalThis.Worker ? new globalThis.Worker(place, { type: "module" })
-        : new (await import("node:worker_threads")).Worker(place);
+    // As one expression, in which bundlers see the file of the worker.
+    const worker = globalThis.Worker ? new Worker(new URL("./worker.js", import.meta.url), { type: "module" }) : await worker_of_node();
     const waiting = new Map();
     let number = 0, ended = null;
     const end = (problem) => {
@@ -173,28 +194,30 @@ export async function inWorker() {
     });
     hear("error", (event) => end(new Error(event.message ?? "the worker cannot be loaded")));
     worker.unref?.();
-    const runner = (words, files) => new Promise((resolve, reject) => {
+    // All workers share the program that is compiled here.
+    worker.postMessage({ program: await load() });
+    const runner = (words, files, options, more) => new Promise((resolve, reject) => {
         if (ended) return reject(ended);
         waiting.set(++number, { resolve, reject });
         worker.ref?.();
-        worker.postMessage({ id: number, words, files });
+        worker.postMessage({ id: number, words, files, more });
     });
     const terminate = async () => {
         end(new Error("the worker has been terminated"));
         await worker.terminate();
     };
-    return { ...functions_with(runner), run: runner, terminate };
+    return { ...functions_with(runner), run: (words, files, more) => runner(words, files, {}, more), terminate };
 }
 
 /// Runs here, or, with `worker: true` or a signal that can abort it, in a worker that ends with the work.
-async function anywhere(words, files, { worker, signal }) {
-    if (!worker && !signal) return run(words, files);
+async function anywhere(words, files, { worker, signal }, more) {
+    if (!worker && !signal) return run(words, files, more);
     signal?.throwIfAborted();
     const away = await inWorker();
     const aborted = () => away.terminate();
     signal?.addEventListener("abort", aborted);
     try {
-        return await away.run(words, files);
+        return await away.run(words, files, more);
     } catch (problem) {
         signal?.throwIfAborted();
         throw problem;

@@ -133,6 +133,9 @@ export function prepare(): Promise<void>;
 export const version: string;
 
 /** All functions in a worker, until it is terminated. */
-export function inWorker(): Promise<Verbs & { run(words: readonly string[], files?: Files): Promise<Answer>; terminate(): Promise<void> }>;
+export function inWorker(): Promise<Verbs & {
+    run(words: readonly string[], files?: Files, more?: { folder?: string; folders?: readonly string[]; stdin?: Uint8Array | string | null }): Promise<Answer>;
+    terminate(): Promise<void>;
+}>;
 
 // --------------------------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@
 #include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
@@ -215,7 +216,7 @@ private:
         for (const int i : free)
             if (std::abs(x[i] - before[i]) >
                 1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
-                moved_.push_back(say("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+                moved_.push_back(moved_in_own_unit(m_, m_.q[i].get_name() + prime, before[i], x[i]));
     }
 
     void solve(Group group, std::vector<double>& x, const std::vector<int>& free) {
@@ -315,6 +316,17 @@ private:
 };
 
 }  // namespace
+
+std::string moved_in_own_unit(const Mechanism& m, const std::string& name, double from, double to) {
+    const std::string coordinate = name.substr(0, name.find('\''));
+    for (int i = 0; i < m.size(); ++i) {
+        const Shown& shown = m.shown_units[static_cast<std::size_t>(i)];
+        if (m.q[i].get_name() != coordinate || shown.unit.empty()) continue;
+        return say("{} from {:.6g} to {:.17g} {}", name, from / shown.size, to / shown.size,
+                   name == coordinate ? shown.unit : per_second(shown.unit));
+    }
+    return say("{} from {:.6g} to {:.17g}", name, from, to);
+}
 
 double size_of_terms(const Program& program, int id, const std::vector<double>& value) {
     const Node* node = &program[id];

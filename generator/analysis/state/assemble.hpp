@@ -23,6 +23,10 @@ struct BrokenConstraint : ModelError {
     Place place;  ///< of the constraint
 };
 
+/// "b from -38 to -37.66 deg": a coordinate or rate that moved, in the unit of the tables that people see beside
+/// it.
+std::string moved_in_own_unit(const Mechanism& mechanism, const std::string& name, double from, double to);
+
 /// Moves the coordinates that are guesses until all holonomic constraints hold, by Gauss-Newton steps of least
 /// change, then the guessed rates until all rates obey them (if the scene gives speeds, all rates until these hold
 /// too). Returns a line for each value that moved. Values with names in `held` are not changed. If an impact is

@@ -8,6 +8,7 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/abi.hpp"
+#include "alembert/native/fingerprint.hpp"
 #include "codegen/emit/comment.hpp"
 #include "codegen/emit/elementary.hpp"
 #include "codegen/emit/head.hpp"
@@ -82,6 +83,27 @@ std::string without_gaps(std::string text) {
     return text;
 }
 
+/// No text of a scene has this sign in a file.
+constexpr const char* place_of_fingerprint = "\x1a";
+
+/// Writes at its places a fingerprint of both, in eight hexadecimal digits: enough against mistakes.
+void put_fingerprint(std::string& source, std::string& header) {
+    Fingerprint print;
+    print.add(source);
+    print.add(header);
+    const std::string digits = print.hex().substr(0, 8);
+    for (std::string* const text : {&source, &header}) {
+        std::string whole;
+        whole.reserve(text->size() + 2000);
+        for (const char c : *text)
+            if (c == *place_of_fingerprint)
+                whole += digits;
+            else
+                whole += c;
+        *text = std::move(whole);
+    }
+}
+
 class SolverFile {
 public:
     SolverFile(const Program& program, const EmitOptions& options)
@@ -117,11 +139,14 @@ public:
                     .formulation = p_.formulation};
         describe_interface(file_, p_, words_, tasks_, options_);
         file_.set("header_head", commented(header_head_of(p_, words_, options_), options_.language));
-        return {.file = name + ".cpp",
-                .text = without_gaps(rendered(template_solver)),
-                .operations = cost,
-                .formulation = p_.formulation,
-                .header = SourceFile{name + ".hpp", without_gaps(rendered(template_solver_hpp))}};
+        file_.set("fingerprint", place_of_fingerprint);
+        Source source{.file = name + ".cpp",
+                      .text = without_gaps(rendered(template_solver)),
+                      .operations = cost,
+                      .formulation = p_.formulation,
+                      .header = SourceFile{name + ".hpp", without_gaps(rendered(template_solver_hpp))}};
+        put_fingerprint(source.text, source.header->text);
+        return source;
     }
 
 private:

@@ -36,6 +36,12 @@ struct Source {
     std::optional<SourceFile> header = {};  ///< the header of a C or C++ file
 };
 
+/// What a scene says of a parameter or of a coordinate.
+struct SceneNote {
+    std::string given;  ///< its value, where that is in another unit than that of the file: "31 deg"
+    std::string about;
+};
+
 struct EmitOptions {
     bool batch = false;  ///< whether to write alembert_pack too; in C++ alone
     CodeLanguage language = CodeLanguage::cpp;
@@ -47,14 +53,11 @@ struct EmitOptions {
     bool shares_multipliers = false;
     double t = 0;                    ///< of the calling example at the head of the file, in s
     std::vector<double> state = {};  ///< likewise: (q, q') or (q, u); zeros if empty
-    /// The state that the C++ header has as data, with all its digits; `state` if empty.
+    /// The state that the C++ header has as data, with all its digits; `state` if empty. It has none if that is
+    /// empty too.
     std::vector<double> initial = {};
-    /// What a header says of a name beside its unit: "31 deg, slope".
-    std::map<std::string, std::string> notes = {};
-    std::string command = {};  ///< that makes the file, for its head; none if empty
-    /// Whether norms of quaternions are constraints, for which the M that is solved has a term besides that of T
-    /// (program/lower/equations.cpp); for the head.
-    bool has_norms = false;
+    std::map<std::string, SceneNote> notes = {};  ///< by name, for the C++ header
+    std::string command = {};                     ///< that makes the file, for its head; none if empty
 };
 
 /// Throws ModelError if the program has no accelerations (a singular system), for packs in C or JavaScript, and

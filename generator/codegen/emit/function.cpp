@@ -14,10 +14,11 @@
 
 namespace alembert {
 
-std::string typed(CodeLanguage language, const FunctionArgument& argument) {
+std::string typed(CodeLanguage language, const FunctionArgument& argument, const std::string& real) {
     if (language == CodeLanguage::javascript) return argument.name;
-    return (language == CodeLanguage::c && argument.type == "const Real&" ? "Real" : argument.type) + " " +
-           argument.name;
+    std::string type = language == CodeLanguage::c && argument.type == "const Real&" ? "Real" : argument.type;
+    constexpr std::string_view name = "Real";
+    return type.replace(type.find(name), name.size(), real) + " " + argument.name;
 }
 
 namespace {

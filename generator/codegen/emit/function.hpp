@@ -53,8 +53,8 @@ struct EmittedFunction {
 };
 
 /// "const Real* state": numbers are passed by reference in C++, where Real may be a pack of eight; JavaScript
-/// names no types.
-std::string typed(CodeLanguage language, const FunctionArgument& argument);
+/// names no types. `real` is what stands for Real.
+std::string typed(CodeLanguage language, const FunctionArgument& argument, const std::string& real = "Real");
 
 /// The functions; none if there is nothing to compute.
 std::vector<EmittedFunction> written(const Program& program, const Vocabulary& words, const FunctionTask& task,

@@ -160,7 +160,7 @@ private:
         if (count(Group::mass) > 0)
             of("mass_forcing",
                fmt::format(
-                   fmt::runtime(options_.has_norms
+                   fmt::runtime(p_.has_norm_terms
                                     ? "mass[{}], M + c A^T A row by row; forcing[{}], f + c A^T gamma, with a "
                                       "c for the norm of each quaternion"
                                     : "mass[{}], M row by row; forcing[{}], f"),
@@ -244,9 +244,11 @@ private:
         lines_.insert(
             lines_.end(),
             {"  #include <cstdio>", fmt::format("  #include \"{}.hpp\"", scene_), "", "  int main() {",
-             fmt::format("      const {0}::State state = {0}::initial_state;", space),
+             options_.state.empty() ? fmt::format("      const {}::State state = {{}};", space)
+                                    : fmt::format("      const {0}::State state = {0}::initial_state;", space),
              fmt::format("      const {0}::Parameters par = {0}::defaults();", space),
-             fmt::format("      const {0}::State rate = {0}::rhs({0}::initial_time, state, par);", space),
+             fmt::format("      const {0}::State rate = {0}::rhs({1}, state, par);", space,
+                         options_.state.empty() ? "0" : space + "::initial_time"),
              fmt::format("      for (int k = 0; k < {0}::state_size; ++k) std::printf(\"%.17g\\n\", "
                          "{0}::numbers(rate)[k]);",
                          space),

@@ -10,20 +10,14 @@
 #include "codegen/emit/layout.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/reserved_words.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
 namespace {
 
 namespace mustache = kainjow::mustache;
-
-/// "const double* state" of "const Real* state"
-std::string in_doubles(const FunctionArgument& a) {
-    if (a.type == "const Real&") return "double " + a.name;
-    std::string type = a.type;
-    type.replace(type.find("Real"), 4, "double");
-    return type + " " + a.name;
-}
 
 /// The table that has the function, from which it is called: so there is one instance of each, which is inline
 /// there.
@@ -40,7 +34,7 @@ std::string call_of(const std::string& name, std::size_t& named) {
 mustache::data export_of(const FunctionTask& task, std::size_t& named) {
     std::string arguments, names;
     for (const FunctionArgument& a : task.arguments) {
-        arguments += (arguments.empty() ? "" : ", ") + in_doubles(a);
+        arguments += (arguments.empty() ? "" : ", ") + typed(CodeLanguage::c, a, "double");
         names += (names.empty() ? "" : ", ") + a.name;
     }
     mustache::data result;
@@ -56,8 +50,12 @@ mustache::data export_of(const FunctionTask& task, std::size_t& named) {
 struct Member {
     std::string name;
     double value = 0;
-    std::string about = {};
+    std::string about = {}, given = {};
 };
+
+std::string comment(const char* before, const std::string& text) {
+    return text.empty() ? "" : before + comment_text(text);
+}
 
 mustache::data members_of(const std::vector<Member>& members) {
     mustache::data list{mustache::data::type::list};
@@ -65,7 +63,8 @@ mustache::data members_of(const std::vector<Member>& members) {
         mustache::data one;
         one.set("name", member.name);
         one.set("value", shortest(member.value));
-        one.set("about", member.about.empty() ? "" : "  ///< " + comment_text(member.about));
+        one.set("about", comment("  ///< ", member.about));
+        one.set("given", comment(", ", member.given));
         list << one;
     }
     return list;
@@ -83,7 +82,7 @@ public:
         std::size_t named = 0;
         for (const FunctionTask& task : tasks) {
             exports << export_of(task, named);
-            if (task.name != "prepare" || !words_.constants().empty()) visible.push_back(task.name);
+            visible.push_back(task.name);
         }
         if (options_.batch)
             for (const char* const name : {"pack", "systems", "packs", "for_each_pack", "pack_table"})
@@ -104,14 +103,14 @@ public:
             one.set("member", member);
             list << one;
         };
-        const auto has = [&](const char* key) { return file_.get(key) != nullptr && file_.get(key)->is_true(); };
         const char* const pointer = "const void*";
         add(pointer, module_entries.solver, "solver");
         if (options_.batch) add(pointer, module_entries.pack, "pack");
-        if (has("has_projection")) add(pointer, module_entries.projection, "projection");
-        if (has("has_redundant")) add("int", module_entries.independent_constraints, "independent_constraints");
-        if (has("has_derivatives")) add(pointer, module_entries.derivatives, "derivatives");
-        if (has("has_named_functions")) add(pointer, module_entries.functions, "functions");
+        if (has_projection(p_)) add(pointer, module_entries.projection, "projection");
+        if (p_.nodes_of(Group::velocity).size() < constraints_of(p_))
+            add("int", module_entries.independent_constraints, "independent_constraints");
+        if (!p_.nodes_of(Group::jacobian).empty()) add(pointer, module_entries.derivatives, "derivatives");
+        if (!options_.functions.empty()) add(pointer, module_entries.functions, "functions");
         file_.set("module_entries", list);
     }
 
@@ -128,38 +127,51 @@ public:
     }
 
 private:
-    std::string about(const std::string& name, const std::string& unit) const {
+    /// "[rad] slope"; with `given`, "[rad] 40 deg, slope".
+    std::string about(const Quantity& quantity, bool with_given) const {
+        std::string text = in_brackets(quantity.unit);
+        const SceneNote note = note_of(quantity.name);
+        const auto add = [&](const std::string& part, const char* before) {
+            if (!part.empty()) text += (text.empty() ? "" : before) + part;
+        };
+        if (with_given) add(note.given, " ");
+        add(note.about, with_given && !note.given.empty() ? ", " : " ");
+        return text;
+    }
+
+    SceneNote note_of(const std::string& name) const {
         const auto note = options_.notes.find(name);
-        const std::string of_scene = note != options_.notes.end() ? note->second : "";
-        const std::string own = unit.empty() ? "" : "[" + unit + "]";
-        return own + (own.empty() || of_scene.empty() ? "" : " ") + of_scene;
+        return note == options_.notes.end() ? SceneNote{} : note->second;
     }
 
     void state() {
-        const std::vector<double>& given = options_.initial.empty() ? options_.state : options_.initial;
+        const std::vector<double>& initial = options_.initial.empty() ? options_.state : options_.initial;
         std::vector<Member> members;
-        const auto add = [&](const std::string& name, const std::string& text) {
+        const auto add = [&](const std::string& name, const std::string& text, const std::string& given) {
             const std::size_t k = members.size();
-            members.push_back({name, k < given.size() ? given[k] : 0, text});
+            members.push_back({name, k < initial.size() ? initial[k] : 0, text, given});
         };
-        for (std::size_t i = 0; i < words_.q().size(); ++i)
-            add(words_.q()[i], about(p_.coordinates[i].name, p_.coordinates[i].unit));
+        const auto add_own = [&](const std::string& name, const Quantity& quantity) {
+            add(name, about(quantity, false), note_of(quantity.name).given);
+        };
+        for (std::size_t i = 0; i < words_.q().size(); ++i) add_own(words_.q()[i], p_.coordinates[i]);
         for (std::size_t k = 0; k < words_.u().size(); ++k)
-            add(words_.u()[k], p_.speeds.empty() ? rate_unit(p_.coordinates[k].unit)
-                                                 : about(p_.speeds[k].name, p_.speeds[k].unit));
+            if (p_.speeds.empty())
+                add(words_.u()[k], in_brackets(per_second(p_.coordinates[k].unit)), "");
+            else
+                add_own(words_.u()[k], p_.speeds[k]);
         file_.set("state_members", members_of(members));
+        file_.set("has_initial", !initial.empty());
         file_.set("initial_time", shortest(options_.t));
     }
 
-    static std::string rate_unit(const std::string& unit) { return unit.empty() ? "" : "[" + unit + "/s]"; }
+    static std::string in_brackets(const std::string& unit) { return unit.empty() ? "" : "[" + unit + "]"; }
 
     void parameters() {
         std::vector<Member> members;
         for (std::size_t k = 0; k < words_.par().size(); ++k)
-            members.push_back(
-                {words_.par()[k], p_.parameters[k].value, about(p_.parameters[k].name, p_.parameters[k].unit)});
+            members.push_back({words_.par()[k], p_.parameters[k].value, about(p_.parameters[k], true)});
         file_.set("parameter_members", members_of(members));
-        file_.set("has_constants", !words_.constants().empty());
         file_.set("has_no_par", members.empty() && words_.constants().empty());
         Names names = words_.names();
         file_.set("constants_member", names.fresh("prepared"));
@@ -182,7 +194,8 @@ private:
 
 std::string namespace_of(const Program& program) {
     std::string name = Names().fresh(program.name);
-    if (is_function_of_c(name)) name += '_';
+    // The runtime is in the namespace alembert, and a module exports alembert_solver and others.
+    if (is_global_in_c(name) || name.starts_with("alembert")) name += '_';
     return name;
 }
 

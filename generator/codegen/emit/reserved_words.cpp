@@ -69,21 +69,6 @@ constexpr std::string_view macros[] = {
     "sigev_notify_function", "sigmask", "signbit", "sigsetjmp", "sinpi", "small", "sparc", "st_atime",
     "st_ctime", "st_mtime", "stderr", "stdin", "stdout", "strdupa", "strndupa", "sun", "tanpi", "tgamma",
     "toascii", "toascii_l", "trunc", "ufromfp", "ufromfpx", "unix", "va_arg", "va_copy", "va_end", "va_start"};
-// Functions and types of C and POSIX outside of any namespace whose names are words or may be short names of scenes.
-constexpr std::string_view functions_of_c[] = {
-    "abort", "abs", "accept", "access", "acct", "acos", "alarm", "asin", "atan", "atan2", "atexit", "atof", "atoi", "atol",
-    "basename", "bind", "brk", "bsearch", "calloc", "chdir", "chmod", "clearenv", "clock", "clone", "close", "connect",
-    "cos", "cosh", "creat", "ctime", "daemon", "difftime", "dirname", "div", "div_t", "double_t", "drand48", "drem", "dup",
-    "exit", "exp", "fabs", "fclose", "feof", "ferror", "fgets", "finite", "float_t", "flock", "fopen", "fork", "fputs", "fread",
-    "free", "fsync", "fwrite", "gamma", "getc", "getenv", "gets", "getw", "gmtime", "group", "index", "initstate", "ioctl",
-    "isinf", "isnan", "j0", "j1", "jn", "kill", "labs", "link", "linkat", "listen", "localtime", "lock", "lockf", "log",
-    "lseek", "malloc", "memset", "mktime", "mount", "nanosleep", "nice", "open", "passwd", "pause", "perror", "pipe", "poll",
-    "pow", "printf", "putc", "puts", "qsort", "raise", "rand", "random", "read", "realloc", "recv", "remove", "rename",
-    "rewind", "rindex", "rmdir", "scanf", "select", "send", "setenv", "setstate", "shutdown", "sigaction", "signal",
-    "significand", "sin", "sincos", "sinh", "sleep", "socket", "splice", "sqrt", "srand", "srandom", "stat", "stime",
-    "strcat", "strlen", "strtod", "swab", "symlink", "sync", "syscall", "sysinfo", "system", "tan", "tanh", "tee", "time",
-    "timer_t", "times", "timespec", "timeval", "tm", "tmpfile", "tmpnam", "truncate", "uname", "ungetc", "unlink", "usleep",
-    "utime", "vfork", "wait", "wait3", "write", "y0", "y1", "yn"};
 // clang-format on
 
 bool is_capital(char c) {
@@ -100,10 +85,6 @@ bool may_be_macro(std::string_view name) {
 
 bool is_reserved(std::string_view name) {
     return may_be_macro(name) || std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
-}
-
-bool is_function_of_c(std::string_view name) {
-    return std::find(std::begin(functions_of_c), std::end(functions_of_c), name) != std::end(functions_of_c);
 }
 
 std::span<const std::string_view> javascript_words() {

@@ -23,11 +23,11 @@ bool may_be_macro(std::string_view name);
 /// Whether it is a keyword, or may be a macro.
 bool is_reserved(std::string_view name);
 
-/// What a module of JavaScript must not use as a name beside these.
-/// Whether a header of the libraries of C declares a function or type of this name outside of any namespace, which
-/// a scene may well be called after: time, link, clock, pause …
-bool is_function_of_c(std::string_view name);
+/// Whether a header of the libraries of C and POSIX may declare something of this name outside of any namespace,
+/// which a scene may well be called after: time, link, clock, pause …
+bool is_global_in_c(std::string_view name);
 
+/// What a module of JavaScript must not use as a name beside these.
 std::span<const std::string_view> javascript_words();
 
 }  // namespace alembert

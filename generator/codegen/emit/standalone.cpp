@@ -6,6 +6,7 @@
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
+#include "codegen/emit/interface.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/projection_text.hpp"
 #include "codegen/emit/solver_functions.hpp"
@@ -32,6 +33,7 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
         for (const std::string& column : *names) columns += "," + label_of(column);
     kainjow::mustache::data file;
     file.set("scene", scene);
+    file.set("space", namespace_of(program));
     file.set("version", ALEMBERT_VERSION);
     file.set("c", language == CodeLanguage::c);
     file.set("compile", language == CodeLanguage::c

@@ -90,11 +90,14 @@ public:
         if (derives) write_derivatives(*tables);
         tables->code = code_.placed();
         if (!tables->code) return std::nullopt;
-        return MemorySolver{
-            .module = Module(std::shared_ptr<const alembert_solver_table>(tables, &tables->solver),
-                             derives ? &tables->derivatives : nullptr, projects ? &tables->projection : nullptr,
-                             tables->packs.get(), nullptr, static_cast<int>(p_.nodes_of(Group::velocity).size())),
-            .go_over = [tables](const Module& compiled) { take_over(*tables, compiled); }};
+        return MemorySolver{.module = Module(tables, {.solver = &s,
+                                                      .derivatives = derives ? &tables->derivatives : nullptr,
+                                                      .projection = projects ? &tables->projection : nullptr,
+                                                      .pack = tables->packs.get(),
+                                                      .functions = nullptr,
+                                                      .independent_constraints =
+                                                          static_cast<int>(p_.nodes_of(Group::velocity).size())}),
+                            .go_over = [tables](const Module& compiled) { take_over(*tables, compiled); }};
     }
 
     std::shared_ptr<const alembert_pack_table> packs() {

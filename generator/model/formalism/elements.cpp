@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/base/interrupt.hpp"
 #include "algebra/notation/readable.hpp"
 #include "base/language/say.hpp"
 #include "model/geometry.hpp"
@@ -177,6 +178,7 @@ std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, cons
 }
 
 ex short_form(const ex& e, const Mechanism& m) {
+    ask_whether_wanted();
     if (m.z->tree_size(e) > 3000) return e;
     const ex plain = m.z->expand(e);
     if (const auto known = m.symbols->short_forms.find(plain); known != m.symbols->short_forms.end())

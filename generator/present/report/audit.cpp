@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "algebra/notation/text.hpp"
+#include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "present/report/page.hpp"
 
@@ -138,7 +139,7 @@ std::string as_text(const Audited& audited) {
         say_on(page, "{} is integrable{}\n", name, integral ? say(": {} = const", text(*integral)) : "");
     for (const std::string& note : audit.notes) put(page, "{}\n", note);
     for (const Adjusted& a : audit.adjusted)
-        say_on(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
+        say_on(page, "adjusted {}\n", moved_in_own_unit(m, a.name, a.from, a.to));
     for (const SingularPose& pose : audit.singular_poses) {
         std::string among;
         for (const int k : pose.among)

@@ -8,6 +8,7 @@
 #include "base/language/say.hpp"
 #include "present/report/plot_panels.hpp"
 #include "present/report/shown_unit.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
@@ -16,10 +17,6 @@ namespace {
 /// The kind of the numbers in a column. Outputs may have any meaning, so each is a group of its own, from the last
 /// number on.
 enum Group { coordinate, rate, multiplier, energy, speed, reaction, output };
-
-std::string per_second(const std::string& unit) {
-    return unit.empty() ? "" : unit + "/s";
-}
 
 /// All columns except the time, in the order of row_columns, without their points.
 std::vector<PlottedLine> columns_of(const Run& run) {

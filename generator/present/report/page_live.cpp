@@ -44,7 +44,7 @@ std::string inlined(const std::string& module) {
 std::string obstacle(const Overview& all) {
     if (!all.emitted.value) return all.emitted.problem;
     const Mechanism& m = all.mechanism;
-    if (!m.unilateral.empty() || m.has_kicks() || !all.emitted.value->choice.program.nodes_of(Group::slip).empty())
+    if (m.has_modes())
         return say(
             "The page plays this motion as it was calculated and has no sliders, because it does not follow "
             "contacts, "

@@ -9,6 +9,7 @@
 #include "present/report/page_plot.hpp"
 #include "present/report/run.hpp"
 #include "present/report/shown_unit.hpp"
+#include "scene/unit_text.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {
@@ -49,12 +50,10 @@ public:
 private:
     ShownUnit shown(std::size_t coordinate) const { return ShownUnit(all_.mechanism.shown_units[coordinate]); }
     std::string shown_rate(std::size_t coordinate) const {
-        return shown(coordinate)
-            .text(rate_unit(all_.mechanism.units[coordinate]).empty() ? "" : all_.mechanism.units[coordinate], 1);
+        return shown(coordinate).text(si_ ? all_.mechanism.units[coordinate] : "", 1);
     }
 
     std::string time_unit() const { return si_ ? "s" : ""; }
-    std::string rate_unit(const std::string& unit) const { return unit.empty() || !si_ ? "" : unit + "/s"; }
 
     std::size_t energy_column() const {
         const auto at =

@@ -342,6 +342,10 @@ Json as_json(const Run& run) {
                                  {"adjoint", run.sensitivity->adjoint},
                                  {"steps", run.sensitivity->steps},
                                  {"evaluations", run.sensitivity->evaluations}};
+    if (run.sensitivity && !run.sensitivity->rows.empty()) {
+        result["sensitivity"]["times"] = run.sensitivity->times;
+        result["sensitivity"]["rows"] = run.sensitivity->rows;
+    }
     if (!run.adjusted.empty()) result["adjusted"] = run.adjusted;
     result["events"] = Json::array();
     for (const EventRecord& event : run.motion.events) result["events"].push_back(json_of(event, run.mechanism));

@@ -10,6 +10,7 @@
 
 #include "model/mechanism.hpp"
 #include "present/report/json.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
@@ -27,8 +28,7 @@ public:
     /// The unit, or that of the SI, over s.
     std::string text(const std::string& si, int times = 0) const {
         const std::string& unit = shown_.unit.empty() ? si : shown_.unit;
-        if (unit.empty() || times == 0) return unit;
-        return unit + (times == 1 ? "/s" : "/s^" + std::to_string(times));
+        return times == 0 ? unit : per_second(unit, times);
     }
 
 private:

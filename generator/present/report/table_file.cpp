@@ -6,6 +6,7 @@
 #include "present/report/motion_plot.hpp"
 #include "present/report/run.hpp"
 #include "present/report/sweep.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
@@ -22,10 +23,6 @@ std::string in_form(Form form, const StoredTable& table) {
     return form == Form::npz ? as_npz(table) : as_hdf5(table);
 }
 
-std::string unit_of_rate(const std::string& unit) {
-    return unit.empty() ? "" : unit + "/s";
-}
-
 std::vector<std::pair<std::string, std::string>> texts_of(const Scene& scene) {
     return {{"scene", scene.text}, {"version", ALEMBERT_VERSION}};
 }
@@ -37,7 +34,7 @@ std::string unit_of_varied(const Mechanism& m, const std::string& name) {
         if (p.symbol.get_name() == name) return p.unit;
     for (std::size_t i = 0; i < m.q.size(); ++i) {
         if (m.q[i].get_name() == name) return m.units[i];
-        if (m.q[i].get_name() + "'" == name) return unit_of_rate(m.units[i]);
+        if (m.q[i].get_name() + "'" == name) return per_second(m.units[i]);
     }
     for (const Mechanism::Speed& speed : m.speeds)
         if (speed.u.get_name() == name) return speed.unit;

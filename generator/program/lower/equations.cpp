@@ -167,6 +167,7 @@ public:
         define_rates(lowering_, program_, m_, e_, udot);
         std::vector<ex> wanted = entries();
         const std::vector<Norm> norms = norms_of_quaternions();
+        program_.has_norm_terms = !norms.empty();
         for (const Norm& norm : norms) wanted.push_back(norm.share);
         // Open contacts exert no force; contacts that the equations keep closed get their multipliers below.
         for (const Mechanism::Unilateral& contact : m_.unilateral)

@@ -48,6 +48,19 @@ void add_impulses(Program& program, const UnitModel& model) {
         program.roots.push_back({Group::event_impulse, "", node});
 }
 
+/// What the scene gives of the start, before guesses are moved. Where speeds are not rates, they follow from what
+/// the scene gives, and none of them is moved alone.
+void note_given(UnitModel& model, const Start& start) {
+    const Mechanism& m = model.mechanism;
+    const State<double> given = state_of(start, m, model.equations);
+    model.given = given.q;
+    model.given.insert(model.given.end(), given.qdot.begin(), given.qdot.end());
+    model.is_guess = m.q_is_guess;
+    if (model.equations.speeds_are_rates())
+        model.is_guess.insert(model.is_guess.end(), m.qdot_is_guess.begin(), m.qdot_is_guess.end());
+    model.is_guess.resize(model.given.size(), false);
+}
+
 /// The program with its signs held, its clocks, and its derivatives.
 void complete(UnitModel& model, Program program) {
     watch_bases(program, model.mechanism.event_actions);
@@ -89,6 +102,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
                 model.scene.file));
     Program program = with_signs_told(model, lowered(model).program);
     Start start = start_of(model.mechanism);
+    note_given(model, start);
     assemble(start, model.mechanism, lower_constraints(model.mechanism), {});
     model.start = state_of(start, model.mechanism, model.equations);
     model.tied = tied_parameters(model.mechanism, start);

@@ -28,6 +28,9 @@ struct UnitModel : Derived {
     int signs = 0;  ///< parameters that hold a sign, the last of the program
     std::vector<TimedZero> clocks = {};
     State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
+    /// q, u as the scene has them, before the constraints have moved guesses; and which of them are guesses.
+    std::vector<double> given = {};
+    std::vector<bool> is_guess = {};
     std::vector<bool> tied =
         {};  ///< of the first parameters, those that keep their values (analysis/state/left_out.hpp)
     double duration = 0, tolerance = 0, sample = 0;

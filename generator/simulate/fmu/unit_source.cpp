@@ -21,8 +21,9 @@ namespace alembert {
 namespace {
 
 /// In the order of UnitVariable::Kind.
-constexpr const char* kind_names[] = {"is_time", "is_state",  "is_rate",   "is_input",      "is_parameter",
-                                      "is_tied", "is_energy", "is_output", "is_multiplier", "is_event"};
+constexpr const char* kind_names[] = {
+    "time_variable", "state_variable",  "rate_variable",   "input_variable",      "parameter_variable",
+    "tied_variable", "energy_variable", "output_variable", "multiplier_variable", "event_variable"};
 
 std::size_t multipliers_of(const Program& p) {
     return p.nodes_of(Group::multiplier).size();
@@ -136,6 +137,17 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     for (const auto* part : {&model.start.q, &model.start.qdot})
         for (const double x : *part) initial += shortest(x) + ", ";
     file.set("initial", initial);
+    std::string given, guesses;
+    for (std::size_t i = 0; i < model.given.size(); ++i) {
+        given += shortest(model.given[i]) + ", ";
+        guesses += model.is_guess[i] ? "1, " : "0, ";
+    }
+    file.set("given", given);
+    file.set("guesses", guesses);
+    std::string holonomic;
+    for (const Mechanism::Constraint& c : model.mechanism.constraints) holonomic += c.position ? "1, " : "0, ";
+    file.set("holonomic", holonomic);
+    file.set("own_speeds", !p.speeds.empty());
     file.set("start", shortest(model.start.t));
     file.set("tolerance", shortest(model.tolerance));
     file.set("finite", argument::finite);

@@ -19,14 +19,6 @@ namespace {
 
 using Kind = UnitVariable::Kind;
 
-/// "m" → "m/s"; nothing where the unit is not known.
-std::string per_second(const std::string& unit, int times = 1) {
-    if (unit.empty()) return {};
-    const std::string below = times == 1 ? "s" : "s^2";
-    if (unit == "1" || unit == "-") return "1/" + below;
-    return (unit.find_first_of("/ ") == std::string::npos ? unit : "(" + unit + ")") + "/" + below;
-}
-
 class Listing {
 public:
     explicit Listing(const UnitModel& model)

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "alembert/base/interrupt.hpp"
+
 namespace alembert {
 
 namespace {
@@ -139,6 +141,7 @@ Certain operator+(const Certain& a, const Certain& b) {
 }
 
 Certain operator*(const Certain& a, const Certain& b) {
+    ask_whether_wanted();
     using Form = Certain::Form;
     if (a.is_zero() || b.is_zero()) return 0;
     if (a.rational() && a.a_ == 1) return b;

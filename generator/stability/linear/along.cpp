@@ -63,7 +63,7 @@ private:
 };
 
 void check_smooth(const Mechanism& m) {
-    if (!m.unilateral.empty() || !m.frictions.empty() || m.has_kicks())
+    if (m.has_modes())
         throw ModelError(
             say("the first approximation is taken along smooth motions; this scene has contacts, dry friction or "
                 "events with impulses, at which deviations jump"));

@@ -5,9 +5,10 @@
 ///
 /// A module, which is loaded while a program runs, exports one C function, `alembert_solver()`, that returns the
 /// table below, and others for further tables (`module_entries`). An emitted file that is linked with a program
-/// exports `NAME_tables()`, NAME being that of its scene, with all tables in one. The emitted file includes
-/// nothing, so it carries its own copy of the structs (templates/solver.cpp.mustache). If you change one of the
-/// two, change the other and raise `abi_version`; a test compares them word for word.
+/// exports `NAME_tables_PRINT()`, NAME being that of its scene and PRINT a fingerprint of the file and its header,
+/// with all tables in one. The emitted file includes nothing, so it carries its own copy of the structs
+/// (templates/solver.cpp.mustache). If you change one of the two, change the other and raise `abi_version`; a test
+/// compares them word for word.
 ///
 /// Arrays (all row-major, all doubles, SI or whatever units the scene uses throughout):
 ///   state  n + s    coordinates q, then speeds u: the rates q' (s = n) unless the equations are in others
@@ -128,7 +129,8 @@ struct alembert_function_table {
     const alembert_named_function* list;
 };
 
-/// What `NAME_tables()` returns: the tables above, null where the file has none. `linked` (module.hpp) takes it.
+/// What `tables()` of an emitted header returns: the tables above, null where the file has none. `linked`
+/// (module.hpp) takes it.
 struct alembert_tables {
     const void* solver;
     const void* derivatives;

@@ -45,11 +45,7 @@ Module module_of(const alembert_tables& all, const std::shared_ptr<const void>& 
             fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
                         "emit it again",
                         name, table->abi, abi_version));
-    return Module(std::shared_ptr<const alembert_solver_table>(alive, table),
-                  static_cast<const alembert_derivative_table*>(all.derivatives),
-                  static_cast<const alembert_projection_table*>(all.projection),
-                  static_cast<const alembert_pack_table*>(all.pack),
-                  static_cast<const alembert_function_table*>(all.functions), all.independent_constraints);
+    return {alive, all};
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,19 +37,14 @@ private:
 
 class Module {
 public:
-    /// The tables of a solver, which the first of them keeps alive: those of a file (`load`), or of code in
-    /// memory.
-    explicit Module(std::shared_ptr<const alembert_solver_table> table,
-                    const alembert_derivative_table* derivatives = nullptr,
-                    const alembert_projection_table* projection = nullptr,
-                    const alembert_pack_table* pack = nullptr, const alembert_function_table* functions = nullptr,
-                    std::optional<int> independent = std::nullopt)
-        : table_(std::move(table)),
-          derivatives_(derivatives),
-          projection_(projection),
-          pack_(pack),
-          functions_(functions),
-          independent_(independent.value_or(table_->constraints)) {}
+    /// The tables of a solver, which `alive` keeps alive: those of a file (`load`), or of code in memory.
+    Module(const std::shared_ptr<const void>& alive, const alembert_tables& all)
+        : table_(alive, static_cast<const alembert_solver_table*>(all.solver)),
+          derivatives_(static_cast<const alembert_derivative_table*>(all.derivatives)),
+          projection_(static_cast<const alembert_projection_table*>(all.projection)),
+          pack_(static_cast<const alembert_pack_table*>(all.pack)),
+          functions_(static_cast<const alembert_function_table*>(all.functions)),
+          independent_(all.independent_constraints) {}
 
     const alembert_solver_table& table() const { return *table_; }
     /// Null if the file was emitted without derivatives.
@@ -84,7 +78,7 @@ private:
 };
 
 Module load(const std::filesystem::path& object);
-/// Of what `NAME_tables()` of an emitted file returns.
+/// Of what `tables()` of an emitted header returns.
 Module linked(const void* tables);
 
 /// The array `par` of the ABI: `values` (the scene's own if empty) followed by the constants that `prepare`

@@ -2,6 +2,7 @@
 #include "alembert/native/process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <pthread.h>
 #include <spawn.h>
 #include <sys/stat.h>
@@ -18,6 +19,7 @@
 #include <string_view>
 
 #include "alembert/base/error.hpp"
+#include "alembert/base/interrupt.hpp"
 #include "alembert/native/program_path.hpp"
 #include "alembert/native/temporary_files.hpp"
 
@@ -41,11 +43,15 @@ std::vector<std::string> english_environment() {
     return list;
 }
 
-/// Reads until the last process that writes has closed its end.
+/// Reads until the last process that writes has closed its end. Whoever waits may end that.
 std::string read_all(int descriptor) {
+    constexpr int moment = 50;  // ms
     std::string text;
     std::array<char, 4096> block;
     for (;;) {
+        ask_whether_wanted();
+        pollfd ready{.fd = descriptor, .events = POLLIN, .revents = 0};
+        if (on_long_work != nullptr && poll(&ready, 1, moment) <= 0) continue;
         const ssize_t count = read(descriptor, block.data(), block.size());
         if (count > 0) text.append(block.data(), static_cast<std::size_t>(count));
         if (count == 0 || (count < 0 && errno != EINTR)) return text;
@@ -118,7 +124,15 @@ Finished run(const std::vector<std::string>& argv) {
         close(ends[0]);
         throw CompileError("cannot start " + argv[0] + ": " + std::strerror(failure));
     }
-    std::string output = read_all(ends[0]);
+    std::string output;
+    try {
+        output = read_all(ends[0]);
+    } catch (...) {
+        kill(-child, SIGKILL);
+        close(ends[0]);
+        wait_for(child);
+        throw;
+    }
     close(ends[0]);
     return {.status = wait_for(child), .output = std::move(output)};
 }

@@ -22,6 +22,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/base/interrupt.hpp"
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/disturbance.hpp"
 #include "alembert/ode/event_watch.hpp"
@@ -179,6 +180,7 @@ private:
         double misfit = 0;
         bool was_foreseen = true;  // the end of the try before
         while (step_.time() < end_ && !ended()) {
+            ask_whether_wanted();
             const double wish = std::min(h, longest);
             h = within_quick_times(wish);
             const bool is_held = h < wish;

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""What users of the Python package meet every day: threads, forks, units, names, notebooks, and the command line."""
+
+import copy
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import alembert
+
+from python_shared import PENDULUM, PROGRAM, scene_file
+
+#: A pendulum whose own unit is degrees.
+DEGREES = {**PENDULUM, "coordinates": {"theta": {"initial": 30, "rate": 20, "unit": "deg"}}}
+
+
+
+
+class EveryDay(unittest.TestCase):
+    def test_a_call_has_one_set_of_parameters_whatever_other_threads_set(self):
+        system = alembert.Scene(PENDULUM).system()
+        states = np.tile([0.5, 0.0], (200_000, 1))
+        ended = []
+
+        def setting():
+            while not ended:
+                system.set(l=1.0)
+                system.set(l=2.0)
+
+        thread = threading.Thread(target=setting)
+        thread.start()
+        try:
+            for _ in range(20):
+                self.assertEqual(len(np.unique(system.rhs(0.0, states)[:, 1])), 1)
+                self.assertEqual(len(np.unique(system.jacobian(0.0, states)[:, 1, 0])), 1)
+                self.assertEqual(len(np.unique(system.energy(0.0, states)[:, 2])), 1)
+        finally:
+            ended.append(True)
+            thread.join()
+
+    def test_a_process_forked_while_a_verb_runs_is_told(self):
+        """A child of which another thread had its turn does not hang."""
+        code = """if True:
+            import os, threading, time, warnings
+            import alembert
+            warnings.simplefilter("ignore")
+            scene = alembert.Scene(os.environ["SCENE"])
+            thread = threading.Thread(target=lambda: scene.simulate(1e9, budget=10**12, estimate=False), daemon=True)
+            thread.start()
+            time.sleep(1)
+            child = os.fork()
+            if child == 0:
+                try:
+                    scene.eval()
+                except RuntimeError as told:
+                    os._exit(0 if "was forked while another thread was in a verb" in str(told) else 1)
+                os._exit(2)
+            began = time.time()
+            while time.time() < began + 20:
+                done, status = os.waitpid(child, os.WNOHANG)
+                if done:
+                    os._exit(os.waitstatus_to_exitcode(status))
+                time.sleep(0.05)
+            os.kill(child, 9)
+            os._exit(3)
+        """
+        done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "SCENE": scene_file("textbook/double_pendulum.toml")},
+                              timeout=120, check=False)
+        self.assertEqual(done.returncode, 0)
+
+    def test_a_process_forked_between_verbs_works(self):
+        scene = alembert.Scene(PENDULUM)
+        expected = scene.eval().accelerations["theta"]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)
+            child = os.fork()
+        if child == 0:
+            os._exit(0 if alembert.Scene(PENDULUM).eval().accelerations["theta"] == expected else 1)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
+
+    def test_states_of_results_are_set_again_in_their_own_units(self):
+        scene = alembert.Scene(DEGREES)
+        run = scene.simulate(1)
+        end = {**run.final["coordinates"], **{f"{name}'": value for name, value in run.final["rates"].items()}}
+        for state in (end, copy.deepcopy(end), pickle.loads(pickle.dumps(end))):
+            at = scene.eval(state)
+            self.assertAlmostEqual(at.coordinates["theta"], run.final["coordinates"]["theta"], places=13)
+            self.assertAlmostEqual(at.rates["theta"], run.final["rates"]["theta"], places=13)
+        self.assertAlmostEqual(scene.eval({"theta": 30}).coordinates["theta"], np.radians(30), places=15)
+        self.assertEqual(type(2 * run.final["coordinates"]["theta"]), float)
+        self.assertEqual(scene.eval(scene.eval().coordinates).coordinates["theta"], scene.eval().coordinates["theta"])
+
+    def test_attributes_of_scenes_without_contacts_and_columns_have_names_of_their_own(self):
+        scene = alembert.Scene(PENDULUM)
+        self.assertEqual(scene.simulate(1).contacts, [])
+        swept = scene.sweep({"theta": [0.1, 0.2]}, duration=1)
+        self.assertEqual(len(set(swept.columns)), len(swept.columns))
+        self.assertEqual(swept["theta"].tolist(), [0.1, 0.2])
+        alone = scene.sweep({"l": [1.5], "theta": [0.2]}, duration=1)
+        self.assertEqual(swept["final_theta"][1], alone["final_theta"][0, 0])
+        self.assertTrue(issubclass(alembert.Error, RuntimeError))
+
+    def test_equations_of_sympy_are_claims(self):
+        try:
+            import sympy
+        except ImportError:
+            self.skipTest("SymPy is missing")
+        scene = alembert.Scene(PENDULUM)
+        own = scene.derive().equations[0].sympy()
+        wrong = sympy.Eq(own.lhs + 1, own.rhs)
+        self.assertEqual(scene.check(own).verdicts, ["proved"])
+        self.assertEqual(scene.check([own, wrong, "l*theta'' = 0"]).verdicts, ["proved", "refuted", "refuted"])
+
+    def test_notebooks_show_marked_derivations_matrices_and_systems(self):
+        scene = alembert.Scene(PENDULUM)
+        marked = scene.mark("T = m*l^2*theta'^2/2\nV = m*g*l*cos(theta)\n")
+        shown = marked._repr_html_()
+        self.assertEqual(shown.count("<tr>"), 3)
+        self.assertIn("<b>right</b>", shown.split("</tr>")[1])
+        self.assertIn("<b>mistake</b>", shown.split("</tr>")[2])
+        self.assertIn("correct: V = -m*g*l*cos(theta)", shown.split("</tr>")[2])
+        linearized = scene.linearize({"theta": 0, "theta'": 0})
+        self.assertIn("<mtable>", linearized._repr_html_())
+        self.assertIn(f"<mn>{linearized.matrices['K'][0][0]:.6g}</mn>", linearized._repr_html_())
+        self.assertEqual(repr(scene.system()), "System(y = theta, then their rates; parameters: m=2, l=1.5, g=9.81)")
+
+    def test_ctrl_c_ends_every_verb_at_once(self):
+        """Where nobody looked for it, each of these verbs would go on for minutes."""
+        chain = {"gravity": [0, "-g"], "parameters": {"g": 9.81}, "coordinates": {}, "particle": []}
+        for k in range(60):
+            chain["parameters"][f"l{k}"] = chain["parameters"][f"m{k}"] = 1.0
+            chain["coordinates"][f"q{k}"] = 0.1
+            chain["particle"].append({"name": f"p{k}", "mass": f"m{k}", "position": [f"l{k}*sin(q{k})", f"-l{k}*cos(q{k})"],
+                                      **({"from": f"p{k - 1}"} if k else {})})
+        rest = {f"q{k}": 0 for k in range(60)}
+        for verb, scene in (("simulate(1e6, sensitivity=['l'], budget=10**12, sample=1e4, estimate=False)", PENDULUM),
+                            ("simulate(1e7, budget=10**12, estimate=False)", PENDULUM), (f"stability({rest})", chain), ("fmu('unit.fmu')", chain),
+                            ("agree()", chain), ("equilibrium(starts=10**6)", chain), ("emit(jacobian=True)", chain)):
+            code = f"import alembert\nscene = alembert.Scene({scene!r})\nprint('go', flush=True)\nscene.{verb}\n"
+            with tempfile.TemporaryDirectory() as folder, subprocess.Popen(
+                    [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder) as child:
+                child.stdout.readline()
+                time.sleep(1)
+                if child.poll() is None:
+                    child.send_signal(signal.SIGINT)
+                    told = child.communicate(timeout=60)[1]
+                    self.assertIn("KeyboardInterrupt", told, verb)
+                else:
+                    child.communicate()
+
+    def test_sensitivities_at_all_rows_are_those_of_their_ends(self):
+        scene = alembert.Scene(PENDULUM)
+        of = scene.simulate(2, 1e-11, sample=0.5, sensitivity=["l", "theta"], sensitivity_rows=True).sensitivity
+        self.assertEqual(of["times"], [0, 0.5, 1, 1.5, 2])
+        self.assertEqual(np.shape(of["rows"]), (5, 2, 2))
+        np.testing.assert_allclose(of["rows"][0], [[0, 1], [0, 0]], atol=1e-15)
+        self.assertEqual(of["rows"][-1], of["values"])
+        for k in (1, 2, 3):
+            alone = scene.simulate(of["times"][k], 1e-11, sensitivity=["l", "theta"]).sensitivity
+            np.testing.assert_allclose(of["rows"][k], alone["values"], rtol=1e-8)
+
+    def test_warnings_are_those_of_the_users_line(self):
+        scene = alembert.Scene({**PENDULUM, "coordinates": {"theta": {"initial": 1, "unit": "furlong"}}})
+        for call in (scene.eval, scene.derive, scene.audit, scene.system, lambda: scene.simulate(0.1), lambda: scene.check("theta = 0"),
+                     lambda: scene.sweep({"l": [1]}, duration=0.1)):
+            with warnings.catch_warnings(record=True) as said:
+                warnings.simplefilter("always")
+                call()
+            self.assertTrue(said)
+            for one in said:
+                self.assertEqual(one.filename, __file__)
+
+    def test_the_package_is_the_command_line_too(self):
+        here = {**os.environ, "PYTHONPATH": os.path.dirname(os.path.dirname(alembert.__file__))}
+        with tempfile.TemporaryDirectory() as folder:
+            for words in (["derive", scene_file("textbook/double_pendulum.toml"), "--steps"], ["--version"], ["derive", "missing.toml"],
+                          ["check", scene_file("textbook/double_pendulum.toml"), "--json"]):
+                ours = subprocess.run([sys.executable, "-m", "alembert", *words], capture_output=True, cwd=folder, env=here, check=False)
+                theirs = subprocess.run([PROGRAM, *words], capture_output=True, cwd=folder, check=False)
+                self.assertEqual((ours.returncode, ours.stdout, ours.stderr), (theirs.returncode, theirs.stdout, theirs.stderr))
