@@ -105,7 +105,7 @@ done
 
 # The blocks of a translated page (README.zh.md speaks Chinese and is run), apart from comments after "# ", are those of the English page in the same order.
 blocks() { awk '/^```/ { inside = !inside; print; next } inside { sub(/[ \t]*(^|[ \t])# .*/, ""); print }' "$1"; }
-for page in docs/guide docs/derivations; do
+for page in docs/guide docs/derivations docs/commands docs/scene-language; do
     diff <(blocks "$root/$page.md") <(blocks "$root/$page.zh.md") >"$work/blocks" && continue
     printf '%s.zh.md has other commands, scenes or outputs (>) than %s.md (<):\n' "$page" "$page"
     cat "$work/blocks"
@@ -117,7 +117,7 @@ numbers() {
     sed -E -e '/^```/,/^```/d' -e 's/`[^`]*`//g' -e 's/\]\([^)]*\)//g' -e 's/([0-9]),([0-9]{3})/\1\2/g' "$1" |
         grep -oE '[0-9][0-9.]*[0-9](e-?[0-9]+)?' | sort
 }
-for page in README docs/guide docs/derivations; do
+for page in README docs/guide docs/derivations docs/commands docs/scene-language; do
     stale=$(comm -23 <(numbers "$root/$page.md") <(numbers "$root/$page.zh.md") | tr '\n' ' ')
     [ -z "$stale" ] || { echo "$page.zh.md lacks numbers of $page.md: $stale"; failed=1; }
 done
