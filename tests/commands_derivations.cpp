@@ -216,9 +216,9 @@ TEST_CASE("derivations: two hundred of a class take less than a minute") {
 TEST_CASE("derivations: lines of thousands of terms or factors are judged in a gigabyte") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     const auto repeated = [](const char* sign, int count, const auto& part) {
-        std::string text = "$m l^2 \\ddot\\theta = l";
+        std::string text = "$$m l^2 \\ddot\\theta = l";
         for (int k = 1; k <= count; ++k) text += sign + part(k);
-        return text + "$\n";
+        return text + "$$\n";
     };
     const auto l = [](int) { return std::string("l"); };
     const std::string lines[] = {

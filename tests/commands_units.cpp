@@ -55,6 +55,7 @@ std::string in_units(const std::string& scene, const Units& units) {
     std::istringstream lines(scene);
     std::string result;
     for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("shape")) continue;  // it has lengths in metres
         static const std::regex unit("unit = \"([^\"]*)\"");
         std::smatch found;
         if (std::regex_search(line, found, unit)) {
