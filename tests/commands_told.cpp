@@ -223,6 +223,33 @@ TEST_CASE(
             .exit == 0);
 }
 
+TEST_CASE("told: an event whose expression ends along the motion, with every method, and none that has values") {
+    const auto scene = [](const std::string& when) {
+        return temporary("ends.toml",
+                         "[coordinates]\nx = { initial = 0, rate = 1 }\n[[particle]]\nname = \"P\"\nmass = "
+                         "1\nposition = [\"x\", 0]\n[[event]]\nname = \"reaches\"\nwhen = \"" +
+                             when + "\"\nstop = true\n[simulation]\nduration = 10\n");
+    };
+    const auto told = [](const std::string& file, const std::string& method) {
+        int count = 0;
+        std::vector<std::string> args{"simulate", file, "--method", method};
+        if (method == "rk4") args.insert(args.end(), {"--step", "0.1"});
+        const Json found = json_of(args);
+        for (const Json& one : found["warnings"])
+            count += one["kind"] == "not_a_number" &&
+                     one["message"].get<std::string>().find(
+                         "the expression of event 'reaches' has a value at t = ") != std::string::npos;
+        return count;
+    };
+    for (const char* method : {"auto", "taylor", "dop853", "radau", "rk4", "rkn86", "abm"}) {
+        CAPTURE(method);
+        CHECK(told(scene("sqrt(25 - x^2) + 1"), method) == 1);  // ends without a zero
+        CHECK(told(scene("sqrt(25 - x^2) - 3"), method) == 0);  // stops before
+        CHECK(told(scene("sqrt(25 + x^2) + 1"), method) == 0);
+        CHECK(told(scene("log(x - 7)"), method) == 0);  // begins, and stops at x = 8
+    }
+}
+
 TEST_CASE("told: an input takes a value at a state, and its derivatives are zero") {
     const std::string scene = on_line("[inputs]\nu = \"2*t\"\n[forces]\nx = \"u + u'\"\n");
     CHECK(json_of({"eval", scene})["accelerations"]["x"] == 1);

@@ -46,7 +46,11 @@ public:
             place{.subject = say("a place"), .order = 0, .input_order = 0, .time = true};
         for (const auto& [name, shape] : looks.shapes) {
             check(shape, place);
-            check_sizes(shape, scene_, diagnostics_);
+            const bool counts = std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const Body& body) {
+                return body.name.text == name.text && body.inertia && !body.inertia->planar &&
+                       body.inertia->tensor[2].place() == shape.place;  // "from shape"
+            });
+            check_sizes(shape, counts, scene_, diagnostics_);
         }
         for (const Scenery& one : looks.scenery) {
             const auto is_pulley = [&](const std::string& name) {
@@ -60,7 +64,7 @@ public:
                 else if (!is_pulley(spot.name->text))
                     quantities_.check_point(*spot.name);
             check(one.shape, place);
-            if (one.kind == Scenery::Kind::solid) check_sizes(one.shape, scene_, diagnostics_);
+            if (one.kind == Scenery::Kind::solid) check_sizes(one.shape, false, scene_, diagnostics_);
             quantities_.check(one.from, size);
             quantities_.check(one.to, size);
             if (one.over) check_coordinate(*one.over);

@@ -105,10 +105,10 @@ bool names_solid(std::string_view key) {
     return std::any_of(std::begin(solids), std::end(solids), [&](const SolidRow& row) { return row.key == key; });
 }
 
-void check_sizes(const Shape& shape, const Scene& scene, std::vector<Diagnostic>& mistakes) {
+void check_sizes(const Shape& shape, bool has_inertia, const Scene& scene, std::vector<Diagnostic>& mistakes) {
     if (shape.kind == Solid::polygon) return;  // of corners
     for (std::size_t k = 0; k < shape.sizes.size(); ++k) {
-        const std::optional<double> size = plain_number(shape.sizes[k], scene);
+        const std::optional<double> size = plain_number(shape.sizes[k], has_inertia ? scene : Scene{});
         if (!size || !(*size < 0) || (shape.kind == Solid::cone && k > 0)) continue;  // a cone may point down
         const auto row = std::find_if(std::begin(solids), std::end(solids),
                                       [&](const SolidRow& one) { return one.kind == shape.kind; });

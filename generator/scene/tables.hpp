@@ -37,8 +37,9 @@ Looks read_looks(const Reading& reading, const toml::table& root);
 std::optional<Shape> read_shape(const Table& table);
 /// The shape that one of the keys of a table names; nothing after a mistake, which is reported.
 std::optional<Shape> read_solid(const Table& table);
-/// Complains of sizes that are negative at the values of the parameters.
-void check_sizes(const Shape& shape, const Scene& scene, std::vector<Diagnostic>& mistakes);
+/// Complains of sizes that are negative as written; if an inertia is that of the shape, also of those that are
+/// negative at the values of the parameters.
+void check_sizes(const Shape& shape, bool has_inertia, const Scene& scene, std::vector<Diagnostic>& mistakes);
 /// Where its middle and its axes are.
 void read_attitude(const Table& table, Shape& shape);
 bool names_solid(std::string_view key);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -88,6 +89,30 @@ bool is_continued(const Trajectory& here, const Trajectory& next) {
 }
 
 }  // namespace
+
+std::vector<EndedEvent> ended_events(const PhasedMotion& motion, const Mechanism& m, LoadedModes& modes) {
+    std::vector<EndedEvent> result;
+    std::vector<std::optional<double>> last(m.events.size());  // where each had a value
+    if (m.events.empty()) return result;
+    for (const Phase& phase : motion.phases) {
+        LoadedMode& mode = modes(phase.closed);
+        const alembert_solver_table& table = mode.module.table();
+        std::vector<double> rate(static_cast<std::size_t>(mode.contact.system.rhs.dimension)),
+            value(std::max(m.events.size(), static_cast<std::size_t>(table.events)), 0);
+        for (std::size_t row = 0; row < phase.motion.rows(); ++row) {
+            const double t = phase.motion.times[row];
+            const auto state = phase.motion.state(row);
+            mode.hold_sides(t, state.data());
+            mode.contact.system.rhs(t, state.data(), rate.data());
+            table.events_at(t, state.data(), rate.data(), mode.par.data(), value.data());
+            for (std::size_t k = 0; k < m.events.size(); ++k) {
+                if (std::isnan(value[k]) && last[k]) result.push_back({m.events[k].name, *last[k], t});
+                last[k] = std::isnan(value[k]) ? std::nullopt : std::optional(t);
+            }
+        }
+    }
+    return result;
+}
 
 std::vector<std::string> row_columns(const Mechanism& m, const Program& program, const JointReactions* reactions) {
     std::vector<std::string> columns{"t"};

@@ -30,4 +30,12 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
 MotionTable rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
                     const JointReactions* reactions, const State<double>& first);
 
+/// An event whose expression has a value at a row of a run and none at the next: it ends between these times,
+/// perhaps without a zero, and nothing is found from there on.
+struct EndedEvent {
+    std::string name;
+    double last, first_without;
+};
+std::vector<EndedEvent> ended_events(const PhasedMotion& motion, const Mechanism& mechanism, LoadedModes& modes);
+
 }  // namespace alembert

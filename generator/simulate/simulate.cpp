@@ -341,6 +341,12 @@ private:
         run_.final_rates.assign(rates.begin(), rates.begin() + m.size());
         run_.contacts = contacts_.names;
         run_.rows = rows_of(run_.motion, run_, modes, reactions(), first_);
+        for (const EndedEvent& one : ended_events(run_.motion, m, modes))
+            run_.warn(
+                "not_a_number",
+                say("warning: the expression of event '{}' has a value at t = {:.6g} and none at t = {:.6g}: it "
+                    "ends between them, and nothing is found where it has none\n",
+                    one.name, one.last, one.first_without));
         if (run_.motion.failure) run_.failure = reason_of(*run_.motion.failure, modes);
     }
 

@@ -59,13 +59,15 @@ Robot::Effect MjcfReader::effect_of(const std::string& element, const std::strin
 }
 
 MjcfReader::MjcfReader(const std::string& text, const std::string& file, const OtherFiles& others)
-    : file_(text, file) {
+    : file_(text, file), named_(file, others) {
     if (std::strcmp(file_.root().Name(), "mujoco") != 0)
         file_.refuse(file_.root(), say("the outermost element is {}; expected <mujoco>", shown(file_.root())));
-    const NamedFiles named(file, others);
-    include_parts(file_, named);
-    write_out_rules(file_, named);
+    include_parts(file_, named_);
+    write_out_rules(file_, named_);
     values_.emplace(file_);
+    values_->bytes_of = [this](const std::string& name) {
+        return named_.bytes(name, [](const std::string& why) { throw MeshMistake(why); });
+    };
 }
 
 Robot MjcfReader::read() {

@@ -59,6 +59,8 @@ std::optional<MjcfInertia> MjcfValues::shape(const XmlElement& geom, const std::
     const std::string type = text(geom, "type").value_or("sphere");
     const double group = number(geom, "group").value_or(0);
     if (type == "plane" || type == "hfield" || group < groups_[0] || group > groups_[1]) return std::nullopt;
+    const auto mass = number(geom, "mass");
+    if (type == "mesh" && mass.value_or(1) != 0) return mesh(geom, body);
     RobotPlace at = place(geom);
     std::vector<double> size = numbers(geom, "size").value_or(std::vector<double>{});
     if (const auto ends = numbers(geom, "fromto", 6)) {
@@ -71,7 +73,6 @@ std::optional<MjcfInertia> MjcfValues::shape(const XmlElement& geom, const std::
                      : std::vector<double>{size[0], (to - from).norm() / 2};
     }
     const std::size_t needed = type == "sphere" ? 1 : type == "capsule" || type == "cylinder" ? 2 : 3;
-    const auto mass = number(geom, "mass");
     const std::optional<Solid> form =
         solid(type, {size.empty() ? 0 : size[0], size.size() > 1 ? size[1] : 0, size.size() > 2 ? size[2] : 0});
     if (!form || flag(geom, "shellinertia").value_or(false)) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scene/import/mjcf_values.hpp"
+#include "scene/import/other_files.hpp"
 #include "scene/import/robot_pose.hpp"
 
 namespace alembert {
@@ -86,6 +87,7 @@ private:
     void set_spring_dampers();
 
     XmlFile file_;
+    NamedFiles named_;
     std::optional<MjcfValues> values_;
     Robot robot_;
     std::map<std::string, Body> places_;

@@ -39,6 +39,9 @@ void MjcfValues::read_compiler(const XmlElement& e) {
     least_moment_ = file_.number(e, "boundinertia").value_or(least_moment_);
     balance_ = file_.flag(e, "balanceinertia").value_or(balance_);
     total_mass = file_.number(e, "settotalmass").value_or(total_mass);
+    strips_path_ = file_.flag(e, "strippath").value_or(strips_path_);
+    for (const char* key : {"assetdir", "meshdir"})
+        if (const auto folder = file_.text(e, key)) mesh_folder_ = folder->empty() ? "" : *folder + "/";
     file_.ignore(e);
 }
 

@@ -10,6 +10,7 @@
 
 #include <map>
 
+#include "scene/import/mesh_solid.hpp"
 #include "scene/import/xml.hpp"
 
 namespace alembert {
@@ -52,10 +53,13 @@ public:
 
     /// <inertial>.
     MjcfInertia given(const XmlElement& inertial);
-    /// The sum of all <geom> of a body. What has no shape of its own (meshes) is left out with a remark.
+    /// The sum of all <geom> of a body. What has no inside that is known here is left out with a remark.
     MjcfInertia by_shapes(const std::vector<MjcfPart>& geoms, const std::string& body);
     /// <compiler> boundmass, boundinertia, balanceinertia.
     void bound(MjcfInertia& inertia) const;
+
+    /// The bytes of a file that a mesh names; throws MeshMistake. Without it, no such file is read.
+    std::function<std::string(const std::string& file)> bytes_of = {};
 
     enum class FromShapes { never, where_missing, always } from_shapes = FromShapes::where_missing;
     bool autolimits = true;
@@ -72,12 +76,16 @@ private:
     void read_class(const XmlElement& e, const std::string& parent);
     const Class& class_of(const XmlElement& e);
     std::optional<MjcfInertia> shape(const XmlElement& geom, const std::string& body);
+    const XmlElement* mesh_named(const std::string& name) const;
+    Triangles triangles_of(const XmlElement& mesh);
+    std::optional<MjcfInertia> mesh(const XmlElement& geom, const std::string& body);
 
     XmlFile& file_;
     bool in_degrees_ = true;
     std::string euler_ = "xyz";
     double least_mass_ = 0, least_moment_ = 0;
-    bool balance_ = false;
+    bool balance_ = false, strips_path_ = false;
+    std::string mesh_folder_ = {};  ///< with a slash at its end, or empty
     std::array<double, 2> groups_{0, 5};
     std::map<std::string, Class> classes_;
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "base/language/say.hpp"
 #include "scene/text.hpp"
@@ -52,6 +54,18 @@ std::string NamedFiles::text(const std::string& name, const Refuse& refuse) cons
     const std::string found = path(name, refuse);
     if (!is_file(found)) refuse(say("{} is a folder; expected a file", in_quotes(name)));
     return text_of_file(found);
+}
+
+std::string NamedFiles::bytes(const std::string& name, const Refuse& refuse) const {
+    constexpr std::uintmax_t largest = 64 << 20;
+    const std::string found = path(name, refuse);
+    std::error_code error;
+    if (!is_file(found)) refuse(say("{} is a folder; expected a file", in_quotes(name)));
+    if (fs::file_size(found, error) > largest) refuse(say("{} has more than 64 MiB, the limit", in_quotes(name)));
+    std::ifstream stream(found, std::ios::binary);
+    std::string result((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    if (!stream) refuse(say("{} cannot be read", in_quotes(name)));
+    return result;
 }
 
 /// The file of the model in a folder: model.sdf, or its only one.

@@ -28,6 +28,8 @@ public:
     /// The path of a file that is named relative to the description.
     std::string path(const std::string& name, const Refuse& refuse) const;
     std::string text(const std::string& name, const Refuse& refuse) const;
+    /// Of a file of data, up to 64 MiB.
+    std::string bytes(const std::string& name, const Refuse& refuse) const;
     /// The SDF file of the model that a URI names: model://NAME is a folder in a package, beside the description,
     /// or in one of the three folders above; file:// and relative names are a file, or the folder of a model.
     std::string model(const std::string& uri, const Refuse& refuse) const;
