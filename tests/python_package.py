@@ -5,6 +5,7 @@ Here are verbs, errors and expressions; python_numbers.py has what gives arrays,
 python_examples.py the examples and notebooks, python_every_day.py threads, forks, units and Ctrl-C."""
 
 import ast
+import glob
 import inspect
 import math
 import os
@@ -12,6 +13,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tempfile
 import unittest
 import warnings
@@ -234,6 +236,13 @@ class Verbs(unittest.TestCase):
         self.assertTrue(any(issubclass(one.category, alembert.SceneWarning) for one in said))
 
 
+def libraries_beside(site):
+    """A wheel with all libraries has put them beside its package: so they are where another is made of this package."""
+    libraries = os.path.join(os.path.dirname(os.path.dirname(alembert.__file__)), "alembert.libs")
+    if os.path.isdir(libraries):
+        shutil.copytree(libraries, os.path.join(site, "alembert.libs"))
+
+
 class Wheel(unittest.TestCase):
     def test_a_wheel_works_without_the_sources_and_lists_all_its_files(self):
         sys.path.insert(0, os.path.join(TESTS, "../python"))
@@ -248,9 +257,7 @@ class Wheel(unittest.TestCase):
             site = os.path.join(folder, "site")
             with zipfile.ZipFile(os.path.join(folder, wheel)) as archive:
                 archive.extractall(site)
-                libraries = os.path.join(os.path.dirname(os.path.dirname(alembert.__file__)), "alembert.libs")
-                if os.path.isdir(libraries):  # a wheel with all libraries has put them beside the package
-                    shutil.copytree(libraries, os.path.join(site, "alembert.libs"))
+                libraries_beside(site)
                 names = archive.namelist()
                 (info,) = {name.split("/")[0] for name in names} - {"alembert"}
                 record = [line.split(",")[0] for line in archive.read(f"{info}/RECORD").decode().splitlines()]
@@ -292,7 +299,13 @@ class Wheel(unittest.TestCase):
             here["PATH"] = programs + os.pathsep + here["PATH"]
             wheel = backend.build_wheel(folder)
             shutil.copytree(os.path.join(TESTS, "../examples/python_project"), os.path.join(folder, "project"))
-            run(os.path.join(programs, "pip"), "install", "--quiet", "--no-deps", "--no-index", "--no-build-isolation", wheel, "./project")
+            # NumPy and setuptools are this interpreter's, which may be that of a virtual environment itself.
+            (site,) = glob.glob(os.path.join(folder, "venv", "lib", "python*", "site-packages"))
+            with open(os.path.join(site, "others.pth"), "w", encoding="utf-8") as others:
+                others.write("\n".join(sysconfig.get_path(kind) for kind in ("purelib", "platlib")) + "\n")
+            run(os.path.join(programs, "pip"), "install", "--quiet", "--no-deps", "--no-index", "--no-build-isolation",
+                "--ignore-installed", wheel, "./project")  # yapf: disable
+            libraries_beside(site)
             self.assertEqual(run("alembert", "--version"), subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout)
             run(os.path.join(programs, "python"), "-m", "unittest", "discover", "project/tests")
 

@@ -151,6 +151,11 @@ class Stability(Result):
     conditions: list[str]
     conditions_for: str
     certain: bool
+    assumed: list[_Assumed]
+
+class _Assumed(TypedDict):
+    kind: Literal["state", "numbers", "family"]
+    text: str
 
 class _EquilibriumAlways(TypedDict):
     coordinates: dict[str, float]
@@ -158,6 +163,7 @@ class _EquilibriumAlways(TypedDict):
     moving: list[str]
     multipliers: dict[str, float]
     residual: float
+    state: Literal["exact", "proved", "open", "in numbers"]
     isolated: bool
     stable: Literal["yes", "no", "undecided"]
     because: str
