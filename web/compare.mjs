@@ -3,7 +3,7 @@
 // FOLDER has alembert.mjs and alembert.wasm. Everything must be the same, byte for byte, apart from
 //   - times that a run took ("seconds", "states_per_second"), and what is said of the code that ran ("code", "instructions",
 //     "threads", "side_by_side");
-//   - bounds of errors ("radii"), which follow from the last digits;
+//   - bounds of errors ("radii") and fingerprints of emitted code, which follow from the last digits;
 //   - how many steps a run took, which may depend on the last digits, plots of rounding, and the points of lines to a
 //     tenth of a pixel;
 //   - which members of a continuum of equilibria or steady motions are shown, of those between which no way was found; that there is one, its dimension and the
@@ -130,6 +130,7 @@ function taken_apart(text, is_table) {
         .replace(/ class="line[^"]*" d="[^"]*"/g, (path) => path.match(/[MLh]-?[\d.]+( -?[\d.]+)?/g)?.sort().join(" ").replace(/[MLh]/g, "$& ") ?? path)
         .replace(/ +/g, " ") // columns are as wide as their numbers
         .replace(/sha256-[\w+\/=]*/g, "sha256-…") // of scripts and styles that hold the page's numbers
+        .replace(/(?<=_|\b0x)[0-9a-f]{8}\b/g, "…") // the fingerprint of emitted code
         .replace(/\d+(\.\d+)? (s|ms|µs)\b/g, "… s")
         .replace(number, (found) => {
             if (!is_table && /^-?\d{1,15}$/.test(found) && Math.abs(Number(found)) < 1000 && Number(found) !== 0) return found;

@@ -26,7 +26,7 @@ try {
     expect("a worker that stays", (await away.derive(scene)).formalism.length > 0);
     expect("files by the names of what is written", sources.files.every((name) => name in sources.written));
     await away.terminate();
-    const problem = await simulate(scene, { duration: 1e7, budget: 1e12, signal: AbortSignal.timeout(1500) }).catch((one) => one);
+    const problem = await simulate(scene, { duration: 1e7, budget: 1e9, signal: AbortSignal.timeout(1500) }).catch((one) => one);
     expect("a signal ends a motion", problem.name === "TimeoutError");
     expect("the page goes on", Object.keys((await emit(scene, { language: "c", output: "a/b" })).written).includes("a/b/scene.c"));
     said.push("done");
