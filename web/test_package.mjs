@@ -94,6 +94,7 @@ const tests = {
         await assert.rejects(derive(pendulum, { steps: 3 }), /'steps' is true or false/);
         await assert.rejects(simulate(pendulum, { duration: true }), /needs a value/);
         await assert.rejects(simulate(pendulum, { duration: NaN }), TypeError);
+        await assert.rejects(simulate(pendulum, { budget: 1e12 }), /--budget 1000000000000: expected a whole number from 1 to 2147483647/);
     },
     async "names with an underscore or a capital are the same"() {
         const a = await simulate(pendulum, { duration: 1, max_step: 0.01 }), b = await simulate(pendulum, { duration: 1, maxStep: 0.01 });

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -116,6 +117,11 @@ std::string missing(const CLI::App& verb, const std::string& name) {
 std::string not_convertible(const CLI::App& verb, const std::string& name, const std::string& value) {
     const std::optional<OptionText> option = option_named(verb, name);
     const bool is_whole = option && option->value == values::count;
+    // In WebAssembly `long` has 32 bits.
+    const std::size_t sign = value.substr(0, 1) == "-" || value.substr(0, 1) == "+" ? 1 : 0;
+    if (is_whole && value.size() > sign && value.find_first_not_of("0123456789", sign) == std::string::npos)
+        return say("{}: expected a whole number from {} to {}", name + " " + value, 1,
+                   std::numeric_limits<long>::max());
     return say("{} {}: expected {}", name, escaped(value), is_whole ? say("a whole number") : say("a number"));
 }
 
