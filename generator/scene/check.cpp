@@ -44,7 +44,9 @@ public:
     void check(const Looks& looks) {
         const Legal size{.subject = say("a size")},
             place{.subject = say("a place"), .order = 0, .input_order = 0, .time = true};
-        for (const auto& [name, shape] : looks.shapes) {
+        for (const auto& looked : looks.shapes) {
+            const auto& name = looked.first;  // no bindings: closures of clang 14 cannot hold them
+            const auto& shape = looked.second;
             check(shape, place);
             const bool counts = std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const Body& body) {
                 return body.name.text == name.text && body.inertia && !body.inertia->planar &&

@@ -13,6 +13,7 @@
 #include "check/written/sentences.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

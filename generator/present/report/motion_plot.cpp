@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
+#include "present/report/page.hpp"
 #include "present/report/plot_panels.hpp"
 #include "present/report/shown_unit.hpp"
 #include "scene/unit_text.hpp"
