@@ -5,6 +5,7 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
