@@ -22,6 +22,22 @@ bool holds_letter(const Math& math, const char* base) {
                        [&](const MathPtr& arg) { return holds_letter(*arg, base); });
 }
 
+/// ∂²U/∂r² of U'' and r, at the place of U''.
+MathPtr slope_of(const Math& function, const Letter& coordinate) {
+    Math of = function, by = function, slope{.kind = Kind::partial};
+    of.kind = by.kind = Kind::letter;
+    of.dots = by.dots = 0;
+    of.args.clear();
+    by.args.clear();
+    by.letter = coordinate;
+    if (function.dots == 0) return std::make_shared<Math>(std::move(of));
+    slope.text = "d";
+    slope.offset = function.offset, slope.length = function.length;
+    slope.args.push_back(std::make_shared<Math>(std::move(of)));
+    slope.args.insert(slope.args.end(), static_cast<std::size_t>(function.dots), std::make_shared<Math>(by));
+    return std::make_shared<Math>(std::move(slope));
+}
+
 bool is_two(const Math& math) {
     return math.kind == Kind::number && math.text == "2";
 }
@@ -65,19 +81,7 @@ MathPtr Marker::with_slopes(const MathPtr& math) const {
         return letters_.name_of(one) == coordinate && !state_letters_.contains(one);
     });
     if (coordinate.empty() || letter == seen_.end()) return changed();
-    Math of = *math, by = place;
-    of.kind = by.kind = Kind::letter;
-    of.dots = by.dots = 0;
-    of.args.clear();
-    by.args.clear();
-    by.letter = *letter;
-    if (math->dots == 0) return std::make_shared<Math>(std::move(of));
-    Math slope{.kind = Kind::partial};
-    slope.text = "d";
-    slope.offset = math->offset, slope.length = math->length;
-    slope.args.push_back(std::make_shared<Math>(std::move(of)));
-    slope.args.insert(slope.args.end(), static_cast<std::size_t>(math->dots), std::make_shared<Math>(by));
-    return std::make_shared<Math>(std::move(slope));
+    return slope_of(*math, *letter);
 }
 
 namespace {
@@ -97,17 +101,7 @@ struct Slopes {
     MathPtr of(const MathPtr& math) const {
         const bool may_be = math->kind == Math::Kind::letter && math->dots > 0 && has_primes(*math);
         const auto by = may_be ? coordinate(math->letter) : std::nullopt;
-        if (by) {
-            Math letter = *math, place = *math, slope{.kind = Math::Kind::partial};
-            letter.dots = place.dots = 0;
-            place.letter = *by;
-            slope.text = "d";
-            slope.offset = math->offset, slope.length = math->length;
-            slope.args.push_back(std::make_shared<Math>(std::move(letter)));
-            slope.args.insert(slope.args.end(), static_cast<std::size_t>(math->dots),
-                              std::make_shared<Math>(place));
-            return std::make_shared<Math>(std::move(slope));
-        }
+        if (by) return slope_of(*math, *by);
         Math copy = *math;
         bool is_other = false;
         for (MathPtr& arg : copy.args) {

@@ -141,8 +141,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
-    if (ends_with_near(statement_->words) || speaks_of_nearness(statement_->words))
-        speaks_of_small_ = true;  // "near θ = 0 it gives"
+    if (speaks_of_nearness(statement_->words)) speaks_of_small_ = true;  // "near θ = 0 it gives"
     const Mechanism& m = system_.mechanism();
     const auto moves = [&](const ClaimText& side) {
         return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) {

@@ -115,7 +115,7 @@ bool is_conditional(std::string_view words) {
 bool speaks_of_nearness(std::string_view words) {
     return has_phrase(
         last_sentence(words),
-        "near|close to|in the vicinity of|in the neighbourhood of|nahe|in der nähe*|cerca de*|près d*|"
+        "near|nearly|close to|in the vicinity of|in the neighbourhood of|nahe|in der nähe*|cerca de*|près d*|"
         "perto d*|vicino a*|附近*");
 }
 
@@ -400,10 +400,6 @@ bool speaks_of_motion_of(std::string_view words, const std::string& name) {
             if (sentence.find(what + (the + lower)) != std::string::npos) return true;
     return has_phrase(sentence,
                       "the " + lower + " is at|the " + lower + " has the velocity|the " + lower + " moves with");
-}
-
-bool ends_with_near(std::string_view words) {
-    return ends_with_word(words, {"near", "close to", "nearly", "in der nähe von", "nahe", "cerca de", "près de"});
 }
 
 bool speaks_of_frequency(std::string_view words) {

@@ -109,9 +109,6 @@ bool speaks_of_conservation(std::string_view words);
 /// "The velocity of the bob is": it is that of the thing of this name.
 bool speaks_of_motion_of(std::string_view words, const std::string& name);
 
-/// "near", "close to" before a formula: what follows holds to first order about the state that it describes.
-bool ends_with_near(std::string_view words);
-
 /// "The natural frequency", "mode".
 bool speaks_of_frequency(std::string_view words);
 

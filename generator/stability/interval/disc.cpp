@@ -19,6 +19,10 @@ public:
             const std::vector<int>& silent)
         : r_(r), split_(split) {
         for (const int k : essential) coordinates_.push_back(split.q[k]);
+        at_rest_ = coordinates_;
+        std::erase_if(at_rest_, [&](int i) {  // whose rates are unknowns
+            return std::count(split.u_dependent.begin(), split.u_dependent.end(), i) > 0;
+        });
         coordinates_.insert(coordinates_.end(), split.q_dependent.begin(), split.q_dependent.end());
         for (int i = 0; i < r.s; ++i) {
             const bool is_silent =
@@ -55,6 +59,7 @@ public:
             return monomials != nullptr ? Expansion::variable(*monomials, k, z[k]) : Expansion(z[k]);
         };
         State<Expansion> state = state_of(point);
+        for (const int i : at_rest_) state.qdot[i] = Expansion(0);
         int next = 0;
         for (const int i : coordinates_) state.q[i] = entry(next++);
         for (const int i : split_.u_dependent) state.qdot[i] = entry(next++);
@@ -85,7 +90,7 @@ public:
 private:
     const Residuals& r_;
     const Split& split_;
-    std::vector<int> coordinates_, forces_;
+    std::vector<int> coordinates_, at_rest_, forces_;
 };
 
 CertainMatrix slopes(const std::vector<Expansion>& values, int unknowns) {
