@@ -504,6 +504,12 @@ TEST_CASE("readings: the work of a part of the forces, the start of a motion, on
                    "Frequencies. $$m^2l^4\\omega^4 - mgl - 3kh^2 = 0$$") == "M");
 }
 
+TEST_CASE("readings: a force that its own equation determines is a definition, whatever a later line says of it") {
+    CHECK(statuses(pendulum,
+                   "Let $a_t = l\\ddot\\theta$.\n\n$$F_t + mg\\sin\\theta = m a_t$$\n\n"
+                   "$$F_t = -2mg\\sin\\theta$$") == "DDR");
+}
+
 TEST_CASE("readings: labels in the text, decimals with a comma, letters that are rounded") {
     CHECK(statuses(pendulum, "and from (2) l theta'' + g sin(theta) = 0", "test.txt") == "R");
     CHECK(statuses(pendulum, "whence with (17)      theta'' = -g/l sin(theta)", "test.txt") == "R");

@@ -142,8 +142,7 @@ bool Marker::changes_in_motion(const std::string& name) const {
 /// "…, where M = m_1 + m_2": a letter that a later line introduces.
 bool Marker::introduce_ahead(const Letter& letter) {
     if (ahead_.contains(letter)) return false;
-    const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
-                                       [](const MathPtr& side) { return is_accelerated(*side); });
+    const bool of_motion = speaks_of_acceleration();
     const auto is_constant = [&](const Math& value) {
         std::map<Letter, int> all;
         collect_letters(value, all);
