@@ -80,7 +80,8 @@ private:
         result_.parts.push_back({begin, out().size(), math.offset, math.length});
     }
 
-    static bool may_be_step(const Math& math) {
+    bool may_be_step(const Math& math) const {
+        if (math.kind == Kind::variation) return how_.displacements != nullptr && !how_.differentials_are_rates;
         return math.kind == Kind::rate || math.kind == Kind::partial ||
                (math.kind == Kind::letter && math.dots > 0);
     }
@@ -99,11 +100,7 @@ private:
             case Kind::sum:
                 return sum(math);
             case Kind::product:
-                for (std::size_t k = 0; k < math.args.size(); ++k) {
-                    if (k > 0) out() += '*';
-                    inside(*math.args[k], Bond::product);
-                }
-                return;
+                return product(math);
             case Kind::negate:
                 out() += '-';
                 return inside(*math.args[0], Bond::product);
@@ -217,6 +214,26 @@ private:
         }
     }
 
+    void product(const Math& math) {
+        bool is_first = true;
+        for (const MathPtr& factor : math.args) {
+            if (is_along(*factor) && math.args.size() > 1) continue;
+            if (!is_first) out() += '*';
+            inside(*factor, Bond::product);
+            is_first = false;
+        }
+    }
+
+    /// The displacement along which the work is looked at: δθ = 1.
+    bool is_along(const Math& math) const {
+        if (math.kind != Kind::variation || how_.displacements == nullptr || how_.differentials_are_rates ||
+            math.args[0]->kind != Kind::letter || math.args[0]->dots > 0)
+            return false;
+        const auto known = how_.letters.name_of(math.args[0]->letter);
+        const auto value = known ? how_.displacements->find(*known) : how_.displacements->end();
+        return value != how_.displacements->end() && value->second == "1";
+    }
+
     void power(const Math& math) {
         const Math& base = *math.args[0];
         if (base.kind == Kind::letter && base.dots == 0 && base.letter.base == "e" && base.letter.index.empty() &&
@@ -311,8 +328,8 @@ private:
         std::string terms;
         for (const auto& [coordinate, value] : *how_.displacements)
             if (value != "0")
-                terms +=
-                    (terms.empty() ? "" : " + ") + fmt::format("diff({},{})*{}", text.text, coordinate, value);
+                terms += fmt::format("{}diff({},{}){}", terms.empty() ? "" : " + ", text.text, coordinate,
+                                     value == "1" ? "" : '*' + value);
         out() += terms.empty() ? "0" : '(' + terms + ')';
     }
 

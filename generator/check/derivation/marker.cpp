@@ -401,6 +401,30 @@ bool Marker::has_quantities(const Sides& sides) const {
            std::any_of(sides.right.names.begin(), sides.right.names.end(), is_one);
 }
 
+/// Newton's law of a part, p' = …, what an energy is in letters: a law that no other line has to give, so that no
+/// mistake above says anything about it.
+bool Marker::stands_by_itself(const Sides& sides, bool is_identity) const {
+    if (is_new_law_) return true;
+    const Mechanism& m = system_.mechanism();
+    const std::set<std::string> names = sides.own_names();
+    const bool has_force = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        const auto known = known_.find(name);
+        const bool is_force = known != known_.end() && (m.z->depends(known->second, m.qddot) ||
+                                                        m.z->depends(known->second, system_.equations().lambda));
+        return is_multiplier(name) || is_force;
+    });
+    const auto is_rate_of_momentum = [&](const Math& side) {
+        if (!is_rate_alone(side)) return false;
+        const Letter& letter = side.kind == Kind::rate ? side.args[0]->letter : side.letter;
+        const std::string name = letters_.name_of(letter).value_or("");
+        return name.starts_with("p_") && !letters_.is_of_scene(name);
+    };
+    const bool is_momentum_law = is_rate_of_momentum(*sides.lhs) || is_rate_of_momentum(*sides.rhs);
+    const Lone lone = lone_letter(*statement_->sides.front());
+    const bool is_energy = lone.letter != nullptr && quantity_of(lone.letter->letter) && is_identity;
+    return has_force || is_momentum_law || is_energy;
+}
+
 void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row) {
     if (is_wrong_derivative(line, sides)) return;
     line.status = LineStatus::right;
@@ -415,16 +439,10 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
         return one.status == LineStatus::mistake || one.status == LineStatus::follows;
     });
     if (!has_mistake) return note_reduced(sides, row);  // nothing stands above from which it could not follow
-    const bool founded = is_new_law_ || is_identity ? is_new_law_ || !wrong || rows.is_identity(own) == true
-                                                    : own_.founds(own) || own_.founds(row);
-    // T and L are what they are, wherever the mistake was, if no letter in them is wrong
-    const Lone lone = lone_letter(*statement_->sides.front());
-    const bool is_energy = lone.letter != nullptr && quantity_of(lone.letter->letter) && is_identity &&
-                           (!own_.wrong_in(sides.own_right.names) || repeats_law(*sides.rhs));
-    if (founded || is_energy) {
-        note_reduced(sides, row);
-        return;
-    }
+    if (stands_by_itself(sides, is_identity)) return note_reduced(sides, row);
+    const bool founded =
+        is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
+    if (founded) return note_reduced(sides, row);
     line.status = LineStatus::unfounded;
     line.follows_from = wrong;
     line.reason = say("it is right, but it does not follow from what stands above");
@@ -475,6 +493,23 @@ bool Marker::is_from_own_hamiltonian(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// Whether both, at rest, are the same condition but for a factor without coordinates.
+bool Marker::is_same_at_rest(const ex& residual, const ex& other) const {
+    const Mechanism& m = system_.mechanism();
+    const auto numerator = [&](const ex& of) {
+        const ex argument = GiNaC::wild(0);
+        const ex whole = m.z->expand(system_.at_rest({of})[0]);
+        return whole.subs(GiNaC::tan(argument) == GiNaC::sin(argument) / GiNaC::cos(argument)).normal().numer();
+    };
+    constexpr double most_at_rest = 1000;  // nodes
+    if (m.z->tree_size(residual) + m.z->tree_size(other) > most_at_rest) return false;
+    const ex a = numerator(residual), b = numerator(other);
+    if (a.is_zero() || b.is_zero()) return false;
+    return std::all_of(m.q.begin(), m.q.end(), [&](const GiNaC::symbol& q) {
+        return is_identically_zero(m.z->name(a * b.diff(q) - b * a.diff(q)), m);
+    });
+}
+
 bool Marker::follows(MarkedLine& line, const Sides& sides) {
     MotionRows& rows = system_.rows();
     const MotionRow own = rows.row(own_residual(sides));
@@ -487,6 +522,10 @@ bool Marker::follows(MarkedLine& line, const Sides& sides) {
         line.follows_from = own_.explained_by_linearizing(
             own.residual, [&](const ex& e) { return linear_part(e, base, system_); });
     }
+    const bool is_of_rest = says_rest() && !holds_rates(*sides.lhs) && !holds_rates(*sides.rhs);
+    if (!line.follows_from && is_of_rest)
+        line.follows_from =
+            own_.explained_at_rest([&](const ex& e) { return is_same_at_rest(own.residual, e); });
     if (!line.follows_from) return false;
     line.status = LineStatus::follows;
     line.reason = say("it follows from line {}", lines[*line.follows_from].line);

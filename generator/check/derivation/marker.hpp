@@ -99,6 +99,7 @@ private:
     void judge_work(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_work_of_part(const std::vector<GiNaC::ex>& stated);
     void judge_displacements(MarkedLine& line, const Math& lhs, const Math& rhs);
+    void take_in_displacement(const Math& lhs, const Math& rhs);
     bool find_place(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     void judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs);
     Sides sides_of(const Math& lhs, const Math& rhs) const;
@@ -115,6 +116,7 @@ private:
     bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
     GiNaC::ex own_residual(const Sides& sides);
 
+    bool stands_by_itself(const Sides& sides, bool is_identity) const;
     void judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row);
     void judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row);
     bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
@@ -170,6 +172,7 @@ private:
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
+    bool is_same_at_rest(const GiNaC::ex& residual, const GiNaC::ex& other) const;
     bool follows(MarkedLine& line, const Sides& sides);
     bool is_potential_of_all(MarkedLine& line, const Sides& sides);
     void note_reduced(const Sides& sides, const MotionRow& row);

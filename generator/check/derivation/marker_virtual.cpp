@@ -54,11 +54,11 @@ bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!holds_variation(lhs) && !holds_variation(rhs)) return false;
     try {
         judge_displacements(line, lhs, rhs);
-        return true;
     } catch (const NoMeaning& reason) {
         if (!reason.unknown || !find_place(line, lhs, rhs, *reason.unknown)) throw;
-        return true;
     }
+    if (line.status == LineStatus::mistake || line.status == LineStatus::follows) take_in_displacement(lhs, rhs);
+    return true;
 }
 
 /// δx_2 of a place that the derivation has not stated: one of the scene's.
@@ -135,6 +135,23 @@ void Marker::judge_displacements(MarkedLine& line, const Math& lhs, const Math& 
     notes_.back() = std::move(notes);
 }
 
+/// δx of a place as the author has it, from a line that is wrong.
+void Marker::take_in_displacement(const Math& lhs, const Math& rhs) {
+    const bool is_of_place = lhs.kind == Kind::variation && !is_virtual_work(lhs) && !all_are_differentials(lhs);
+    if (!is_of_place || !system_.equations().A.empty()) return;
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    for (int i = 0; i < m.size(); ++i) {
+        const Displacements displacements = along(m, i);
+        const ClaimWriting own{
+            .letters = letters_, .steps = &own_.steps(), .displacements = &displacements};
+        const ClaimText place = claim_text(lhs, {.letters = letters_, .displacements = &displacements});
+        const ex stated = own_.value(claim_text(rhs, own).text);
+        if (rows.is_identity(rows.row(stated - truth_.value(place.text))) != true)
+            own_.state_step(place.text, stated, lines.size());
+    }
+}
+
 /// Where constraints bind the displacements, what stands before them may differ by Σ λ ∂f/∂q.
 void Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
@@ -189,6 +206,7 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     std::vector<std::string> texts;
     std::vector<ex> own, truth;
+    std::set<std::string> names;
     for (int i = -1; i < m.size(); ++i) {  // −1: without displacements there is no work
         const Displacements displacements = along(m, i);
         const ClaimText text = claim_text(rhs, {.letters = letters_, .displacements = &displacements});
@@ -199,7 +217,10 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
         }
         texts.push_back(text.text);
         truth.push_back(truth_.value(text.text));
-        own.push_back(own_.value(text.text));
+        const ClaimText derived = claim_text(
+            rhs, {.letters = letters_, .steps = &own_.steps(), .displacements = &displacements});
+        own.push_back(own_.value(derived.text));
+        names.insert(derived.names.begin(), derived.names.end());
     }
     MotionRows& rows = system_.rows();
     const auto wrong_ones = [&](bool all) {
@@ -229,7 +250,16 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
         line.reason = say("the words speak of a part of the forces");
         return;
     }
+    const auto is_own = [&](std::size_t i) {
+        const std::string force = "Q_" + m.q[static_cast<int>(i)].get_name();
+        return own_.wrong_in({force}) && rows.is_identity(rows.row(own[i] - own_.value(force))) == true;
+    };
     line.status = wrong ? LineStatus::mistake : LineStatus::right;
+    if (wrong && std::all_of(wrong_here.begin(), wrong_here.end(), is_own)) {
+        line.status = LineStatus::follows;
+        line.follows_from = own_.wrong_in({"Q_" + m.q[static_cast<int>(*wrong)].get_name()});
+        line.reason = say("it follows from line {}", lines[*line.follows_from].line);
+    }
     const std::string name = "Q_" + m.q[wrong ? static_cast<int>(*wrong) : 0].get_name();
     const std::string& text = texts[wrong.value_or(0)];
     line.claim = name + " = " + text;
@@ -237,7 +267,10 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
     for (std::size_t i = 0; i < own.size(); ++i) {
         const std::string force = "Q_" + m.q[i].get_name();
         const bool same = rows.is_identity(rows.row(own[i] - truth_.value(force))) == true;
-        own_.state(force, own[i], same ? std::nullopt : std::optional(lines.size()));
+        std::optional<std::size_t> from = own_.wrong_in(names);
+        if (!from) from = line.follows_from;
+        if (!from || line.status == LineStatus::mistake) from = lines.size();
+        own_.state(force, own[i], same ? std::nullopt : from);
     }
 }
 

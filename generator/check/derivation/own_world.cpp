@@ -328,6 +328,14 @@ std::optional<std::size_t> OwnWorld::explained_by_linearizing(
     return std::nullopt;
 }
 
+std::optional<std::size_t> OwnWorld::explained_at_rest(const std::function<bool(const ex&)>& is_same) {
+    for (auto equation = equations_.rbegin(); equation != equations_.rend(); ++equation)
+        if (equation->is_wrong && !equation->is_near && is_same(equation->row.residual)) return equation->line;
+    for (const Law& law : laws(true))
+        if (law.wrong && is_same(law.row.residual)) return law.wrong;
+    return std::nullopt;
+}
+
 bool OwnWorld::founds(const MotionRow& row) {
     MotionRows& rows = system_.rows();
     std::vector<const MotionRow*> given;

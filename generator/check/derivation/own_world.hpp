@@ -70,6 +70,8 @@ public:
     /// The wrong equation that gives this row once both are linearized by `linear`.
     std::optional<std::size_t> explained_by_linearizing(
         const GiNaC::ex& residual, const std::function<std::optional<GiNaC::ex>(const GiNaC::ex&)>& linear);
+    /// The wrong equation, or law with wrong quantities, of which `is_same` says that it gives the line at rest.
+    std::optional<std::size_t> explained_at_rest(const std::function<bool(const GiNaC::ex&)>& is_same);
     /// Whether a right equation follows from the derivation's own quantities or equations, or these are all right.
     bool founds(const MotionRow& row);
     /// Whether generalized forces contain those of the potential: d/dt ∂T/∂q' − ∂T/∂q = Q.

@@ -82,12 +82,16 @@ std::vector<DerivedSystem::IndependentSpeed> DerivedSystem::independent_speeds()
 }
 
 std::vector<ex> DerivedSystem::conditions_of_rest() const {
-    GiNaC::exmap still;
-    for (const auto* list : {&m_.qdot, &m_.qddot})
-        for (const GiNaC::symbol& s : *list) still[s] = 0;
     std::vector<ex> result;
     for (int i = 0; i < e_.size(); ++i) result.push_back(e_.forcing(i) + reaction(i));
-    return substitute(*m_.z, result, still);
+    return at_rest(result);
+}
+
+std::vector<ex> DerivedSystem::at_rest(const std::vector<ex>& list) const {
+    GiNaC::exmap still;
+    for (const auto* motion : {&m_.qdot, &m_.qddot})
+        for (const GiNaC::symbol& s : *motion) still[s] = 0;
+    return substitute(*m_.z, list, still);
 }
 
 ex DerivedSystem::without_accelerations(const ex& e) const {

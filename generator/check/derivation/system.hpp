@@ -67,6 +67,8 @@ public:
     std::vector<IndependentSpeed> independent_speeds() const;
     /// What is zero at states of rest, one for each coordinate: the forces and the reactions at q' = q'' = 0.
     std::vector<GiNaC::ex> conditions_of_rest() const;
+    /// The expressions at q' = q'' = 0.
+    std::vector<GiNaC::ex> at_rest(const std::vector<GiNaC::ex>& list) const;
     /// The expression without accelerations: at q'' = 0.
     GiNaC::ex without_accelerations(const GiNaC::ex& e) const;
     /// The inputs and their derivatives as the scene gives them in t: a support's s = a t²/2.
