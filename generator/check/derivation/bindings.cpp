@@ -47,7 +47,7 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
                 result.push_back({things[k], true});
         if (!result.empty()) break;
     }
-    const bool is_number = !index.empty() && index.find_first_not_of("0123456789") == std::string::npos;
+    const bool is_number = is_count(index);
     if (!result.empty() && (!is_number || !is_open)) return result;
     for (const std::string& thing : things)  // an author counts in an order of his own
         if (result.empty() || thing != result[0].name) result.push_back({thing, things.size() == 1});
@@ -148,6 +148,10 @@ std::vector<Binding> angular_velocity_named(const Letter& letter, const Scene& s
 }
 
 }  // namespace
+
+bool is_count(const std::string& index) {
+    return !index.empty() && index.find_first_not_of("0123456789") == std::string::npos;
+}
 
 bool is_counted(const Scene& scene) {
     const auto ends_with_number = [](const std::string& name) {

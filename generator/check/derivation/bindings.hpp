@@ -29,6 +29,9 @@ struct Binding {
 /// Whether the scene counts its things itself: m1, theta2. Otherwise an author counts in an order of his own.
 bool is_counted(const Scene& scene);
 
+/// Whether an index is a number: that of x_1.
+bool is_count(const std::string& index);
+
 std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene);
 
 /// x_1 along all axes of space and of the scene's frames, as an author may lay his own.

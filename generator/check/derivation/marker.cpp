@@ -23,7 +23,7 @@ using Kind = Math::Kind;
 bool is_number(const Math& side) {
     if (side.kind == Kind::number) return true;
     const bool is_form = side.kind == Kind::negate || side.kind == Kind::quotient || side.kind == Kind::product ||
-                         side.kind == Kind::quantity;
+                         side.kind == Kind::quantity || side.kind == Kind::sum;
     return (side.kind == Kind::letter && side.letter.base == "pi") ||
            (is_form &&
             std::all_of(side.args.begin(), side.args.end(), [](const MathPtr& arg) { return is_number(*arg); }));
@@ -50,6 +50,7 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
       letters_(std::move(letters)),
       truth_(system.scene(), system.mechanism(), system.sheets()),
       own_(system, letters_) {
+    count_letters();
     std::vector<ex> values = system.forces(true);
     values.push_back(system.mechanism().lagrangian());
     const std::vector<ex> changes = system.mechanism().explicit_time_derivative(values);
@@ -349,6 +350,7 @@ void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Sides sides = sides_of(lhs, rhs);
     line.claim = sides.left.text + " = " + sides.right.text;
     notes_.back().claim = {.lhs = sides.left.text, .rhs = sides.right.text};
+    if (has_potential_of_all_ && has_quantities(sides)) notes_.back().claim = {};  // the check has the scene's V
     notes_.back().left = sides.left;
     notes_.back().right = sides.right;
     const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
@@ -404,7 +406,7 @@ bool Marker::has_quantities(const Sides& sides) const {
 /// Newton's law of a part, p' = …, what an energy is in letters: a law that no other line has to give, so that no
 /// mistake above says anything about it.
 bool Marker::stands_by_itself(const Sides& sides, bool is_identity) const {
-    if (is_new_law_) return true;
+    if (is_new_law_ || repeats_law(sides)) return true;
     const Mechanism& m = system_.mechanism();
     const std::set<std::string> names = sides.own_names();
     const bool has_force = std::any_of(names.begin(), names.end(), [&](const std::string& name) {

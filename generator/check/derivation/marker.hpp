@@ -92,6 +92,7 @@ private:
     std::optional<double> in_numbers(const GiNaC::ex& value, const GiNaC::exmap& values) const;
     std::optional<double> value_of_numbers(const Math& side);
     GiNaC::exmap own_values() const;
+    std::optional<GiNaC::ex> datum_of(const GiNaC::ex& parameter, const Math& stated);
     bool judge_calculation(MarkedLine& line, const Math& formula, double written);
     bool judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -155,6 +156,7 @@ private:
     bool holds_to_digits(const Sides& sides);
     bool holds_from_start(const GiNaC::ex& residual);
     bool holds_at_stated_place(const GiNaC::ex& residual);
+    bool holds_where_held(const GiNaC::ex& residual);
     void note_place(const Math& lhs, const Math& rhs);
     bool holds_function_of_state(const Math& math) const;
     bool is_refuted_at_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& there,
@@ -175,6 +177,7 @@ private:
     bool is_same_at_rest(const GiNaC::ex& residual, const GiNaC::ex& other) const;
     bool follows(MarkedLine& line, const Sides& sides);
     bool is_potential_of_all(MarkedLine& line, const Sides& sides);
+    void know_potential(const GiNaC::ex& value);
     void note_reduced(const Sides& sides, const MotionRow& row);
     bool is_constant_of_potential(MarkedLine& line, const Sides& sides, const Letter& letter,
                                   const GiNaC::ex& value);
@@ -189,6 +192,8 @@ private:
     void hold_momenta(const std::string& name, const ClaimText& text, const ClaimText& own,
                       std::optional<std::size_t> wrong);
     std::vector<Binding> bindings(const Letter& letter) const;
+    bool counts_other_things(const Letter& letter) const;
+    void count_letters();
     void hear(const std::string& words);
     void hear_conditions(const std::string& words);
     void hear_special_values(const std::string& words);
@@ -290,6 +295,7 @@ private:
     };
     std::map<Letter, Motion> motions_;    ///< letters that are places and velocities
     std::set<Letter> frequency_letters_;  ///< ω that the derivation has found
+    std::map<std::string, std::size_t> counts_;  ///< the largest number of x_1, x_2 …, by letter
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
@@ -342,6 +348,7 @@ private:
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
     bool is_autonomous_ = false;       ///< whether nothing in the system changes with time by itself
+    bool has_potential_of_all_ = false;  ///< whether V has been stated with the potential of loads
     bool has_told_forces_ = false;     ///< whether a line has shown which forces are in Q
     bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
 };

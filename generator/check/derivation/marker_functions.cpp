@@ -206,7 +206,28 @@ bool Marker::holds_at_stated_place(const ex& residual) {
     if (stated_place_.empty()) return false;
     const Mechanism& m = system_.mechanism();
     const ex there = substitute(*m.z, {residual}, stated_place_)[0];
-    return is_identically_zero(m.z->name(there), m) || follows_with(residual, stated_place_);
+    return is_identically_zero(m.z->name(there), m) || follows_with(residual, stated_place_) ||
+           holds_where_held(residual);
+}
+
+/// "If the block is clamped, u = 0": the equations of the other coordinates, with u at rest there, give the line.
+bool Marker::holds_where_held(const ex& residual) {
+    const Mechanism& m = system_.mechanism();
+    GiNaC::exmap held = stated_place_;
+    std::vector<ex> all{residual};
+    for (int i = 0; i < m.size(); ++i) {
+        if (stated_place_.contains(m.q[i]))
+            held[m.qdot[i]] = held[m.qddot[i]] = 0;
+        else
+            all.push_back(system_.motion_residual(i));
+    }
+    if (all.size() == 1 || !m.z->depends(residual, m.qddot)) return false;
+    MotionRows& rows = system_.rows();
+    std::vector<MotionRow> special;
+    for (const ex& one : substitute(*m.z, all, held)) special.push_back(rows.row(one));
+    std::vector<const MotionRow*> given;
+    for (std::size_t k = 1; k < special.size(); ++k) given.push_back(&special[k]);
+    return rows.is_identity(special[0]) != true && rows.follows(special[0], given, false);
 }
 
 }  // namespace alembert

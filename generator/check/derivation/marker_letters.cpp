@@ -47,9 +47,31 @@ std::string Marker::bind(const Letter& letter, const ex& truth) {
     return name;
 }
 
+/// y_1 and y_2 where the scene has one body: the author counts springs, or corners.
+bool Marker::counts_other_things(const Letter& letter) const {
+    if (!is_count(letter.index)) return false;
+    const Scene& scene = system_.scene();
+    const std::size_t things = scene.particles.size() + scene.bodies.size() + scene.points.size();
+    const auto largest = counts_.find(letter.base);
+    return largest != counts_.end() && largest->second > things;
+}
+
+/// The largest number with which the text counts each letter.
+void Marker::count_letters() {
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written_.statements)
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    constexpr std::size_t longest = 2;  // a year is no count
+    for (const auto& [letter, dots] : all)
+        if (is_count(letter.index) && letter.index.size() <= longest)
+            counts_[letter.base] = std::max(counts_[letter.base], std::stoul(letter.index));
+}
+
 /// Those of the body of which the words before the line speak, if they speak of one.
 std::vector<Binding> Marker::bindings(const Letter& letter) const {
     std::vector<Binding> all = bindings_of(letter, system_.scene());
+    if (counts_other_things(letter))
+        for (Binding& binding : all) binding.named = false;
     if (spoken_.empty()) return all;
     std::vector<Binding> own;
     for (Binding& binding : all)
@@ -197,8 +219,7 @@ bool Marker::bind_to_part(const Letter& letter, const Math* value) {
     if (!part) part = force_along_speed(letter);
     if (part && value != nullptr) part = numbered_otherwise(letter, *value, *part);
     if (value != nullptr && letter.base == "F" && letter.raised.empty()) part = other_force(letter, *value, part);
-    const bool is_numbered_force = letter.base == "F" && letter.raised.empty() && !letter.index.empty() &&
-                                   letter.index.find_first_not_of("0123456789") == std::string::npos;
+    const bool is_numbered_force = letter.base == "F" && letter.raised.empty() && is_count(letter.index);
     if (part && is_numbered_force && !(value != nullptr && is_value_of(*value, *part))) return false;  // of body 1
     if (!part) return false;
     const std::string name = bind(letter, *part);

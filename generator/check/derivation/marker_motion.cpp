@@ -149,7 +149,9 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
     try {
         const Lone& lone = is_left ? left : right;
         const ex name = truth_.value(claim_text(*lone.letter, as_written()).text);
-        const ex value = m.z->expand(truth_.value(claim_text(is_left ? rhs : lhs, as_written()).text));
+        const Math& stated = is_left ? rhs : lhs;
+        const std::optional<ex> datum = datum_of(name, stated);
+        const ex value = datum ? m.z->expand(*datum) : m.z->expand(truth_.value(claim_text(stated, as_written()).text));
         if (!GiNaC::is_a<GiNaC::symbol>(name) || value.has(name)) return;
         set_special_value(name, GiNaC::pow(value, GiNaC::numeric(1, lone.power)));
         stop_input(name, value);

@@ -238,7 +238,25 @@ bool Marker::is_potential_of_all(MarkedLine& line, const Sides& sides) {
     line.status = LineStatus::right_up_to_constant;
     line.reason = say("with the potential of the loads");
     notes_.back().claim = {};
+    know_potential(truth_.value(sides.right.text));
     return true;
+}
+
+/// From then on V, and L, E and H with it, are those of all forces that have a potential.
+void Marker::know_potential(const ex& value) {
+    const auto name = [&](MechanicalQuantity quantity) { return letters_.name_of(quantity); };
+    const ex T = truth_.value(name(MechanicalQuantity::kinetic)),
+             more = value - truth_.value(name(MechanicalQuantity::potential));
+    const std::pair<MechanicalQuantity, ex> all[] = {
+        {MechanicalQuantity::potential, value},
+        {MechanicalQuantity::lagrangian, T - value},
+        {MechanicalQuantity::energy, T + value},
+        {MechanicalQuantity::hamiltonian, truth_.value(name(MechanicalQuantity::hamiltonian)) + more}};
+    for (const auto& [quantity, meant] : all) {
+        known_[name(quantity)] = system_.mechanism().z->name(meant);
+        truth_.know(name(quantity), known_[name(quantity)]);
+    }
+    has_potential_of_all_ = true;
 }
 
 /// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a

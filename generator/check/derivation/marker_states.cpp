@@ -271,8 +271,11 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
         notes_.back().claim = {};
         return true;
     }
-    if (!(speaks_of_impact_ || speaks_of_conservation(said_)) || system_.scene().impulses.empty() ||
-        has_quantities(sides) || is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
+    const bool is_energy_given = mentions_impact_ && sides.left.text == letters_.name_of(MechanicalQuantity::kinetic) &&
+                                 is_of_parameters(truth_.value(sides.right.text));  // T = S² b²/(2 I)
+    if (!(speaks_of_impact_ || is_energy_given || speaks_of_conservation(said_)) ||
+        system_.scene().impulses.empty() || (has_quantities(sides) && !is_energy_given) ||
+        is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
         return false;
     LineClaim claim = notes_.back().claim;
     claim.at_impact = true;
@@ -282,6 +285,7 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
     } catch (const std::exception&) {
         return false;
     }
+    if (is_energy_given && verdict != Verdict::proved) return false;
     if (speaks_of_conservation(said_) && (verdict != Verdict::proved || !is_kept(sides))) return false;
     notes_.back().claim = claim;
     line.status = verdict == Verdict::proved    ? LineStatus::right

@@ -27,21 +27,33 @@ struct Printed {
     bool is_rounded() const { return number != nullptr && number->text.find_first_of(".eE") != std::string::npos; }
 };
 
-/// 26.5 N of plain text, where N is a letter: letters behind a number with a point that are a unit. They are read
-/// as one only where one of them is no name of the scene.
-std::string unit_of_letters(const Math& product, const Letters& letters) {
-    std::string unit;
-    bool is_strange = false;
+struct UnitOfLetters {
+    std::string text = {};
+    bool is_certain = false;  ///< whether no letter of an author looks so: kg, Nm
+};
+
+/// 26.5 N of plain text, where N is a letter: letters behind a number that are a unit. They are read as one only
+/// where one of them is no name of the scene.
+UnitOfLetters unit_of_letters(const Math& product, const Letters& letters, bool may_be_names = false) {
+    UnitOfLetters unit;
+    bool is_strange = may_be_names;
     for (std::size_t k = 1; k < product.args.size(); ++k) {
         const bool is_power = product.args[k]->kind == Kind::power;
         const Math& letter = is_power ? *product.args[k]->args[0] : *product.args[k];
-        if (letter.kind != Kind::letter || letter.dots > 0 || !letter.letter.index.empty()) return "";
-        if (is_power && product.args[k]->args[1]->kind != Kind::number) return "";
-        is_strange = is_strange || !letters.name_of(letter.letter);
-        unit += (unit.empty() ? "" : "*") + letter.letter.base +
-                (is_power ? "^" + product.args[k]->args[1]->text : "");
+        if (letter.kind != Kind::letter || letter.dots > 0 || !letter.letter.index.empty()) return {};
+        const bool is_known = letters.name_of(letter.letter).has_value();
+        is_strange = is_strange || !is_known;
+        unit.is_certain = unit.is_certain || (!is_known && letter.letter.base.size() > 1);
+        unit.text += (unit.text.empty() ? "" : "*") + letter.letter.base;
+        if (!is_power) continue;
+        const Math& exponent = *product.args[k]->args[1];
+        const bool is_negative = exponent.kind == Kind::negate;
+        const Math& number = is_negative ? *exponent.args[0] : exponent;
+        if (number.kind != Kind::number) return {};
+        unit.text += (is_negative ? "^-" : "^") + number.text;
+        unit.is_certain = unit.is_certain || is_negative;
     }
-    return is_strange && meaning_of_unit(unit) ? unit : "";
+    return is_strange && meaning_of_unit(unit.text) ? unit : UnitOfLetters{};
 }
 
 Printed printed(const Math& side, const Letters& letters) {
@@ -54,9 +66,9 @@ Printed printed(const Math& side, const Letters& letters) {
     if (side.kind == Kind::quantity && side.args[0]->kind == Kind::number)
         return {.number = side.args[0].get(), .unit = side.text};
     if (side.kind != Kind::product || side.args[0]->kind != Kind::number) return {};
-    Printed result{
-        .number = side.args[0].get(), .unit = unit_of_letters(side, letters), .is_unit_of_letters = true};
-    return result.is_rounded() && !result.unit.empty() ? result : Printed{};
+    const UnitOfLetters unit = unit_of_letters(side, letters);
+    Printed result{.number = side.args[0].get(), .unit = unit.text, .is_unit_of_letters = true};
+    return (result.is_rounded() || unit.is_certain) && !unit.text.empty() ? result : Printed{};
 }
 
 /// What one unit of the last digit is worth.
@@ -71,7 +83,9 @@ double last_digit(const std::string& text) {
 /// Whether another number comes from a factor or a sign that is easily lost. Otherwise a value may have been
 /// read otherwise than it is meant, and so may a unit where it is a power of ten.
 bool is_slip_of_number(double written, double exact, double digit) {
+    constexpr double least_precision = 0.05;  // of a number of one digit any factor could have been lost
     const double pi = std::acos(-1.0);
+    if (digit > least_precision * std::abs(written)) return false;
     for (const double factor :
          {-1.0, 2.0, 0.5, 4.0, 0.25, 3.0, std::sqrt(2.0), std::sqrt(0.5), pi, 1 / pi, 2 * pi, 1 / (2 * pi)})
         if (std::abs(exact * factor - written) <= std::max(digit, 2e-3 * std::abs(exact * factor))) return true;
@@ -90,12 +104,34 @@ bool holds_decimals(const Math& math) {
                        [](const MathPtr& arg) { return holds_decimals(*arg); });
 }
 
+/// Decimals, or numbers that no coefficient has: (1100 − 981)/36.
+bool holds_data(const Math& math) {
+    constexpr double largest_coefficient = 100;
+    return holds_decimals(math) ||
+           (math.kind == Kind::number && std::atof(math.text.c_str()) > largest_coefficient) ||
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return holds_data(*arg); });
+}
+
 /// Of the scene's parameters.
 GiNaC::exmap Marker::own_values() const {
     GiNaC::exmap own;
     for (const Mechanism::Parameter& p : system_.mechanism().parameters)
         if (p.independent) own[p.symbol] = p.number();
     return own;
+}
+
+/// l = 4 m of plain text, where m is a mass: four metres, where this is the scene's own value.
+std::optional<ex> Marker::datum_of(const ex& parameter, const Math& stated) {
+    constexpr double least_difference = 1e-9;
+    if (stated.kind != Kind::product || stated.args[0]->kind != Kind::number) return std::nullopt;
+    const auto unit = meaning_of_unit(unit_of_letters(stated, letters_, true).text);
+    const GiNaC::exmap own = own_values();
+    const auto known = own.find(parameter);
+    if (!unit || known == own.end()) return std::nullopt;
+    const double there = GiNaC::ex_to<GiNaC::numeric>(known->second).to_double(),
+                 value = std::atof(stated.args[0]->text.c_str()) * unit->factor;
+    if (std::abs(there - value) > least_difference * std::abs(value)) return std::nullopt;
+    return truth_.value(fmt::format("{}*({})", stated.args[0]->text, unit->exact.empty() ? "1" : unit->exact));
 }
 
 /// Nothing of what is no real number with these values.
@@ -105,11 +141,11 @@ std::optional<double> Marker::in_numbers(const ex& value, const GiNaC::exmap& va
     return GiNaC::ex_to<GiNaC::numeric>(there).to_double();
 }
 
-/// (1.2 · 9.81)/50 m: of numbers alone, with decimals among them.
+/// (1.2 · 9.81)/50 m: of numbers alone, with data among them.
 std::optional<double> Marker::value_of_numbers(const Math& side) {
     std::map<Letter, int> all;
     collect_letters(side, all);
-    if (!holds_decimals(side)) return std::nullopt;
+    if (!holds_data(side)) return std::nullopt;
     const bool may_have_unit = side.kind == Kind::product && side.args.size() == 2 &&
                                side.args[1]->kind == Kind::letter && side.args[1]->letter.index.empty() &&
                                all.size() == 1;
