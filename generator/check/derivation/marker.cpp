@@ -406,7 +406,7 @@ bool Marker::has_quantities(const Sides& sides) const {
 /// Newton's law of a part, p' = …, what an energy is in letters: a law that no other line has to give, so that no
 /// mistake above says anything about it.
 bool Marker::stands_by_itself(const Sides& sides, bool is_identity) const {
-    if (is_new_law_ || repeats_law(sides)) return true;
+    if (is_new_law_ || (!is_identity && repeats_law(sides))) return true;
     const Mechanism& m = system_.mechanism();
     const std::set<std::string> names = sides.own_names();
     const bool has_force = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -460,7 +460,8 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
 
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
         holds_at_rest(line, sides) || holds_at_some_rest(line, sides) || holds_near(line, sides, row.residual) ||
-        holds_near_some_rest(line, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+        holds_near_some_rest(line, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides) ||
+        follows_from_inertia(line, sides))
         return;
     if (deviates_from_motion()) {
         line.status = LineStatus::undecided;

@@ -100,6 +100,7 @@ private:
     void judge_work(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_work_of_part(const std::vector<GiNaC::ex>& stated);
     void judge_displacements(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool bind_to_force(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     void take_in_displacement(const Math& lhs, const Math& rhs);
     bool find_place(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     void judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -174,6 +175,10 @@ private:
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
+    void follows_as_constant(MarkedLine& line, const ClaimText& text);
+    bool is_an_inertia(const GiNaC::ex& value);
+    std::vector<GiNaC::ex> energies_with_inertia(const GiNaC::ex& value);
+    bool follows_from_inertia(MarkedLine& line, const Sides& sides);
     bool is_same_at_rest(const GiNaC::ex& residual, const GiNaC::ex& other) const;
     bool follows(MarkedLine& line, const Sides& sides);
     bool is_potential_of_all(MarkedLine& line, const Sides& sides);
@@ -295,6 +300,7 @@ private:
     };
     std::map<Letter, Motion> motions_;    ///< letters that are places and velocities
     std::set<Letter> frequency_letters_;  ///< ω that the derivation has found
+    std::map<std::size_t, GiNaC::ex> inertias_;  ///< lines that define a moment of inertia that the scene has not
     std::map<std::string, std::size_t> counts_;  ///< the largest number of x_1, x_2 …, by letter
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak

@@ -25,6 +25,10 @@ using Kind = Math::Kind;
 
 namespace {
 
+bool is_letter_of_inertia(const Letter& letter) {
+    return letter.base == "I" || letter.base == "J" || letter.base == "Theta";
+}
+
 /// "psi" of the index "psi_dot"; empty for one without a dot.
 std::string without_dot(const std::string& index) {
     constexpr std::string_view dot = "_dot";
@@ -381,7 +385,8 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
     notes_.back().left = text;
     line.status = holds ? LineStatus::right : LineStatus::mistake;
-    notes_.back().is_sure = !holds;
+    if (!holds) follows_as_constant(line, text);
+    notes_.back().is_sure = line.status == LineStatus::mistake;
     if (holds && !is_word_for_constant(letter.letter.base)) kept_.insert(bind(letter.letter, value));
     return true;
 }
@@ -599,6 +604,8 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
     if (power == 1) hold_momenta(name, text, own, wrong);
+    const bool names_inertia = is_letter_of_inertia(letter.letter) && power == 1;
+    if (names_inertia && !wrong && is_of_parameters(truth) && !is_an_inertia(truth)) inertias_[lines.size()] = truth;
 }
 
 /// U_eff(θ) = V + J²/(2 m l² sin²θ): ∂U/∂θ is taken with J held, ∂H/∂p with q held, of what the author has

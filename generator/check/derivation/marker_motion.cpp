@@ -126,7 +126,17 @@ bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, co
     }
     line.status = LineStatus::mistake;
     line.reason = say("it does not keep its value");
+    follows_as_constant(line, text);
     return true;
+}
+
+/// An integral of the derivation's own wrong equations.
+void Marker::follows_as_constant(MarkedLine& line, const ClaimText& text) {
+    const ex rate = system_.mechanism().time_derivative({own_.value(text.text)})[0];
+    line.follows_from = own_.explained_by(system_.rows().row(rate), speaks_of_small_);
+    if (!line.follows_from) return;
+    line.status = LineStatus::follows;
+    line.reason = say("it follows from line {}", lines[*line.follows_from].line);
 }
 
 /// m_1 = m_2 or k = 40: from then on lines may hold for these values alone.

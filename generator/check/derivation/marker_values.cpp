@@ -201,7 +201,7 @@ bool Marker::judge_calculation(MarkedLine& line, const Math& formula, double wri
 /// Whether one side is a value in numbers; then it is held against the other with the values that the derivation
 /// states, else with those of the scene.
 bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
-    constexpr double in_last_digit = 2, rounding_on_the_way = 2e-3;
+    constexpr double rounding_on_the_way = 2e-3;
     const Printed left = printed(lhs, letters_), right = printed(rhs, letters_);
     const std::optional<double> by_left = value_of_numbers(lhs), by_right = value_of_numbers(rhs);
     if (left.number == nullptr && right.number == nullptr && by_left.has_value() != by_right.has_value())
@@ -223,6 +223,8 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
     const double scale = value.unit == "deg" ? std::acos(-1.0) / 180 : unit ? unit->factor : 1;
     const double written = (value.is_negative ? -1 : 1) * std::atof(value.number->text.c_str()) * scale;
     const double digit = last_digit(value.number->text) * scale;
+    const bool is_short = std::abs(written) < 100 * digit;  // 8 m/s says less than 8.00 m/s, and is rounded once
+    const double in_last_digit = is_short ? 0.6 : 2;
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value in numbers; lines are judged for all values");
     if (!is_known) return true;

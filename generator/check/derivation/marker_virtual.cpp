@@ -55,9 +55,25 @@ bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
     try {
         judge_displacements(line, lhs, rhs);
     } catch (const NoMeaning& reason) {
+        if (reason.unknown && bind_to_force(line, lhs, rhs, *reason.unknown)) return true;
         if (!reason.unknown || !find_place(line, lhs, rhs, *reason.unknown)) throw;
     }
     if (line.status == LineStatus::mistake || line.status == LineStatus::follows) take_in_displacement(lhs, rhs);
+    return true;
+}
+
+/// δW = Q δθ: Q is the generalized force along θ from then on.
+bool Marker::bind_to_force(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    if (!is_virtual_work(lhs) || rhs.kind != Kind::product || rhs.args.size() != 2) return false;
+    const Math &force = *rhs.args[0], &displacement = *rhs.args[1];
+    const bool is_form = force.kind == Kind::letter && force.letter == letter && force.dots == 0 &&
+                         displacement.kind == Kind::variation && displacement.args[0]->kind == Kind::letter;
+    const auto name = is_form ? letters_.name_of(displacement.args[0]->letter) : std::nullopt;
+    const std::vector<std::string>& all = letters_.coordinates();
+    if (!name || std::find(all.begin(), all.end(), *name) == all.end()) return false;
+    letters_.bind(letter, "Q_" + *name);
+    line.status = LineStatus::definition;
+    line.claim = identifier_of(letter) + " = Q_" + *name;
     return true;
 }
 

@@ -130,6 +130,20 @@ void OwnWorld::state(const std::string& name, const ex& value, std::optional<std
     refresh();
 }
 
+bool OwnWorld::state_if(const std::string& name, const ex& value, std::size_t wrong,
+                        const std::function<bool()>& is_so) {
+    const auto found = stated_.find(name);
+    const std::optional<Stated> before = found == stated_.end() ? std::nullopt : std::optional(found->second);
+    state(name, value, wrong);
+    if (is_so()) return true;
+    if (before)
+        stated_[name] = *before;
+    else
+        stated_.erase(name);
+    refresh();
+    return false;
+}
+
 void OwnWorld::state_step(const std::string& text, const ex& value, std::optional<std::size_t> wrong) {
     const auto [place, is_new] = steps_.emplace(text, "");
     if (is_new) place->second = letters_.free_name(fmt::format("step_{}", steps_.size()));

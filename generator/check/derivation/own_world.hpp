@@ -32,6 +32,9 @@ public:
     GiNaC::ex value_with(const std::string& text, const std::map<std::string, GiNaC::ex>& given);
     /// The name has this value from now on. `wrong`: the line from which a wrong value comes.
     void state(const std::string& name, const GiNaC::ex& value, std::optional<std::size_t> wrong);
+    /// The same where `is_so` then says that it is; otherwise all is as before.
+    bool state_if(const std::string& name, const GiNaC::ex& value, std::size_t wrong,
+                  const std::function<bool()>& is_so);
     /// The name is a part of the sum `whole`, "T_1" of "T": what it is said to be counts in the whole, too.
     void count_as_part(const std::string& name, const std::string& whole, const GiNaC::ex& truth);
     /// The name, or the step of this text, is a velocity, or a component of one, of a mass, whose kinetic energy

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// J_C = m b²/12 of a rod that is 2 b long: a definition, until an energy shows that it is meant of a body of the
+// scene, whose moment of inertia is another one.
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/derivation/marker.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// A body that turns in a plane, and its share of the kinetic energy.
+struct Turning {
+    std::string name;
+    ex inertia;                ///< about its mass centre
+    ex moving = 0, turning = 0;  ///< the two parts of its kinetic energy
+};
+
+std::vector<Turning> turning_bodies(const Scene& scene, const Mechanism& m,
+                                    const std::function<ex(const Expression&)>& value) {
+    std::vector<Turning> result;
+    for (const Body& body : scene.bodies) {
+        if (!body.inertia || !body.inertia->planar) continue;
+        Turning one{.name = body.name.text, .inertia = value(*body.inertia->planar)};
+        for (const Part& part : m.kinetic) {
+            if (part.origin.name != body.name.text) continue;
+            (part.origin.kind == Origin::Kind::rotation ? one.turning : one.moving) += part.value;
+        }
+        if (!one.turning.is_zero() && !one.inertia.is_zero()) result.push_back(std::move(one));
+    }
+    return result;
+}
+
+}  // namespace
+
+/// Whether it is the moment of inertia of a body about its mass centre or about a fixed point, or of all of them.
+bool Marker::is_an_inertia(const ex& value) {
+    const Mechanism& m = system_.mechanism();
+    const auto is_it = [&](const ex& energy, const ex& square_of_rate) {
+        return is_identically_zero(m.z->name(2 * energy - value * square_of_rate), m);
+    };
+    ex moving, turning;
+    for (const Turning& body : turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
+        const ex square = 2 * body.turning / body.inertia;
+        if (is_it(body.turning, square) || is_it(body.moving + body.turning, square)) return true;
+    }
+    return std::any_of(m.qdot.begin(), m.qdot.end(), [&](const GiNaC::symbol& rate) {
+        const ex slope = m.z->pull_back({{m.kinetic_energy(), 1}}, {rate})[0];
+        return is_identically_zero(m.z->name(m.z->pull_back({{slope, 1}}, {rate})[0] - value), m);
+    });
+}
+
+/// The kinetic energies that a wrong moment of inertia would give.
+std::vector<ex> Marker::energies_with_inertia(const ex& value) {
+    const Mechanism& m = system_.mechanism();
+    const ex T = m.kinetic_energy();
+    std::vector<ex> result;
+    for (const Turning& body : turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
+        const ex turning = body.turning * value / body.inertia;
+        result.push_back(m.z->name(T - body.turning + turning));
+        result.push_back(m.z->name(T - body.turning - body.moving + turning));  // about a fixed point
+    }
+    if (m.size() == 1) result.push_back(m.z->name(value * GiNaC::pow(m.qdot[0], 2) / 2));
+    return result;
+}
+
+/// A line that is right with the author's moment of inertia follows from its definition, which is the mistake.
+bool Marker::follows_from_inertia(MarkedLine& line, const Sides& sides) {
+    MotionRows& rows = system_.rows();
+    const std::string T = letters_.name_of(MechanicalQuantity::kinetic);
+    for (std::size_t d = 0; d < lines.size(); ++d) {
+        const auto stated = inertias_.find(d);
+        if (stated == inertias_.end() || lines[d].status != LineStatus::definition) continue;
+        for (const ex& energy : energies_with_inertia(stated->second)) {
+            const bool is_so = own_.state_if(T, energy, d, [&] {
+                const MotionRow own = rows.row(own_residual(sides));
+                line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
+                                                                  : own_.explained_by(own, speaks_of_small_);
+                return line.follows_from.has_value();
+            });
+            if (!is_so) continue;
+            lines[d].status = LineStatus::mistake;
+            lines[d].reason = say("no body of the scene has this moment of inertia");
+            notes_[d].is_sure = true;
+            notes_[d].claim = {};
+            line.status = LineStatus::follows;
+            line.reason = say("it follows from line {}", lines[d].line);
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace alembert
