@@ -403,6 +403,11 @@ bool Marker::has_quantities(const Sides& sides) const {
            std::any_of(sides.right.names.begin(), sides.right.names.end(), is_one);
 }
 
+/// Q = 0, of rest
+bool Marker::is_balance(const Sides& sides) const {
+    return is_lone_force(*sides.lhs) && is_number(*sides.rhs);
+}
+
 /// Newton's law of a part, p' = …, what an energy is in letters: a law that no other line has to give, so that no
 /// mistake above says anything about it.
 bool Marker::stands_by_itself(const Sides& sides, bool is_identity) const {
@@ -424,7 +429,7 @@ bool Marker::stands_by_itself(const Sides& sides, bool is_identity) const {
     const bool is_momentum_law = is_rate_of_momentum(*sides.lhs) || is_rate_of_momentum(*sides.rhs);
     const Lone lone = lone_letter(*statement_->sides.front());
     const bool is_energy = lone.letter != nullptr && quantity_of(lone.letter->letter) && is_identity;
-    return has_force || is_momentum_law || is_energy;
+    return has_force || is_balance(sides) || is_momentum_law || is_energy;
 }
 
 void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row) {
@@ -451,6 +456,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
+    if (is_balance(sides)) is_rest_assumed_ = true;
     if (is_approximation(line, sides) || is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) ||
         (is_aside() && is_assumption(line, sides)) || holds_after_impact(line, sides) ||
         is_assumption(line, sides) || is_reduced_momentum(line, sides))

@@ -118,6 +118,7 @@ private:
     bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
     GiNaC::ex own_residual(const Sides& sides);
 
+    bool is_balance(const Sides& sides) const;
     bool stands_by_itself(const Sides& sides, bool is_identity) const;
     void judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row);
     void judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row);
@@ -208,6 +209,7 @@ private:
     bool is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs);
     void weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool states_relation_of_constants(const Math& lhs, const Math& rhs);
+    const Letter* place_of_rate(const Math& math) const;
     std::optional<std::string> excuse(const MarkedLine& line, const Math& lhs, const Math& rhs);
     void hear_approximation(const std::string& words);
     void hear_steady_motion(const std::string& words);
@@ -259,6 +261,7 @@ private:
     void know_speed(const std::string& key, const std::vector<GiNaC::ex>& slopes);
     bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool determine_by_rate(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     std::string bind(const Letter& letter, const GiNaC::ex& truth);
 
     bool judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -302,6 +305,7 @@ private:
     std::set<Letter> frequency_letters_;  ///< ω that the derivation has found
     std::map<std::size_t, GiNaC::ex> inertias_;  ///< lines that define a moment of inertia that the scene has not
     std::map<std::string, std::size_t> counts_;  ///< the largest number of x_1, x_2 …, by letter
+    std::set<Letter> of_rate_;  ///< those of which only the rate has been said: φ of φ' = x'/r
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,

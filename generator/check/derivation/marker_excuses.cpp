@@ -90,10 +90,21 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
     return true;
 }
 
+/// The letter of an angle in it of which only the rate is known, if it stands there without a dot.
+const Letter* Marker::place_of_rate(const Math& math) const {
+    if (math.kind == Kind::letter && math.dots == 0 && of_rate_.contains(math.letter)) return &math.letter;
+    for (const MathPtr& arg : math.args)
+        if (const Letter* const found = place_of_rate(*arg)) return found;
+    return nullptr;
+}
+
 /// The reason why a line that does not hold on all motions may yet be meant rightly; nothing if there is none.
 std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1)
         return say("the words may mean the energy of a part");
+    for (const Math* const side : {&lhs, &rhs})
+        if (const Letter* const letter = place_of_rate(*side))
+            return say("of {} only the rate has been stated", identifier_of(*letter));
     if (speaks_of_other_system(statement_->words)) return say("the words speak of another system");
     const std::size_t masses = system_.scene().particles.size() + system_.scene().bodies.size();
     const bool is_numbered = lhs.kind == Kind::letter && lhs.dots == 0 && !lhs.letter.index.empty() &&

@@ -536,7 +536,7 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
-    if (all[letter] > 0) return false;  // ρ'' of a ρ that is not known
+    if (all[letter] > 0) return determine_by_rate(line, lhs, rhs, letter);
     const Letters before = letters_;
     const std::string name = bind(letter, 0);
     const auto give_up = [&] {
@@ -576,6 +576,49 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     note_base(lhs, rhs, letter);
     line.status = LineStatus::definition;  // it may absorb any slip
     line.claim = sides.left.text + " = " + sides.right.text;
+    line.reason = say("it determines {}", name);
+    return true;
+}
+
+/// φ' = x'/r, or x' = r φ' of rolling: φ is x/r, counted from where x is zero.
+bool Marker::determine_by_rate(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    const Letters before = letters_;
+    const std::string name = bind(letter, 0);
+    const auto give_up = [&] {
+        known_.erase(name);
+        letters_ = before;
+        return false;
+    };
+    const Mechanism& m = system_.mechanism();
+    std::optional<ex> place;
+    try {
+        const Sides sides = sides_of(lhs, rhs);
+        const auto residual = [&](int rate) {  // with φ = rate · t
+            truth_.know(name, rate * m.t);
+            return truth_.value(sides.left.text) - truth_.value(sides.right.text);
+        };
+        const ex none = residual(0), slope = residual(1) - none;
+        if (!is_identically_zero(m.z->name(residual(2) - none - 2 * slope), m)) return give_up();
+        if (is_identically_zero(m.z->name(slope), m)) return give_up();
+        const ex rate = m.z->name(-none / slope);
+        const std::vector<ex> shares = m.z->pull_back({{rate, 1}}, m.qdot);
+        GiNaC::exvector terms, rates;
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            if (!is_of_parameters(shares[i])) return give_up();
+            terms.push_back(shares[i] * m.q[i]);
+            rates.push_back(shares[i] * m.qdot[i]);
+        }
+        if (!is_identically_zero(m.z->name(rate - GiNaC::add(rates)), m)) return give_up();
+        place = m.z->expand(GiNaC::add(terms)).normal();
+        line.claim = sides.left.text + " = " + sides.right.text;
+    } catch (const NoMeaning&) {
+        return give_up();
+    }
+    known_[name] = m.z->name(*place);
+    truth_.know(name, known_[name]);
+    own_.state(name, known_[name], {});
+    of_rate_.insert(letter);
+    line.status = LineStatus::definition;
     line.reason = say("it determines {}", name);
     return true;
 }

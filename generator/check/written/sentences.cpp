@@ -35,10 +35,10 @@ bool has_letter_before(std::string_view text, std::size_t k) {
 /// Whether the stop there is one of "i.e.", "z. B.", "т. е.", and ends no sentence.
 bool is_stop_of_abbreviation(std::string_view words, std::size_t at) {
     static constexpr std::string_view all[] = {
-        "i.e.",  "d.h.",    "z.b.",   "z.B.",   "d. h.",  "z. b.",   "z. B.",   "bzw.",    "vgl.", "p. ej.",
-        "p.ej.", "por ej.", "p. ex.", "p.ex.",  "ad es.", "per es.", "c.-à-d.", "c. à d.", "np.",  "tzn.",
-        "tj.",   "tzw.",    "t.ex.",  "t. ex.", "d.v.s.", "dvs.",    "bl.a.",   "s.k.",    "т.е.", "т. е.",
-        "т.к.",  "т. к.",   "т.н.",   "т. н.",  "см.",    "рис.",    "напр."};
+        "i.e.",  "d.h.",    "z.b.",   "z.B.",   "d. h.",  "z. b.",    "z. B.",   "bzw.",    "vgl.", "p. ej.",
+        "p.ej.", "por ej.", "p. ex.", "p.ex.",  "ad es.", "per es.",  "c.-à-d.", "c. à d.", "np.",  "tzn.",
+        "tj.",   "tzw.",    "t.ex.",  "t. ex.", "d.v.s.", "dvs.",     "bl.a.",   "s.k.",    "т.е.", "т. е.",
+        "т.к.",  "т. к.",   "т.н.",   "т. н.",  "(см.",   "см. рис.", "рис.",    "напр."};
     return std::any_of(std::begin(all), std::end(all), [&](std::string_view one) {
         for (std::size_t dot = one.find('.'); dot != std::string_view::npos; dot = one.find('.', dot + 1))
             if (at >= dot && words.substr(at - dot).starts_with(one) && !has_letter_before(words, at - dot))
@@ -54,7 +54,8 @@ std::string in_lower_case(std::string_view text) {
     for (std::size_t k = 0; k < lower.size(); ++k) {
         char& c = lower[k];
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
-        if (!begins_wide_letter(c) || k + 1 == lower.size()) continue;
+        const bool is_whole = k + 1 < lower.size() && (static_cast<unsigned char>(lower[k + 1]) & 0xC0U) == 0x80U;
+        if (!begins_wide_letter(c) || !is_whole) continue;
         const unsigned code = lower_of((static_cast<unsigned char>(c) & 0x1FU) << 6 |
                                        (static_cast<unsigned char>(lower[k + 1]) & 0x3FU));
         c = static_cast<char>(0xC0U | code >> 6);
@@ -140,8 +141,12 @@ bool holds_sentence(std::string_view words) {
 }
 
 bool joins_formulas(std::string_view words) {
-    constexpr std::size_t longest = 16;
-    return words.size() < longest && !ends_sentence(words);
+    constexpr std::ptrdiff_t longest = 16, longest_in_han = 6;
+    const auto is_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    const std::ptrdiff_t letters = std::count_if(words.begin(), words.end(), is_letter);
+    const bool is_han = std::any_of(words.begin(), words.end(),
+                                    [](char c) { return static_cast<unsigned char>(c) >= 0xE0; });
+    return letters < (is_han ? longest_in_han : longest) && !ends_sentence(words);
 }
 
 bool begins_sentence(std::string_view words) {

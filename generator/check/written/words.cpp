@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/written/words.hpp"
 
+#include <algorithm>
+
 #include "check/written/languages.hpp"
 #include "check/written/sentences.hpp"
 
@@ -15,7 +17,7 @@ bool speaks_of_consequence(std::string_view words) {
         "donc|d'où|ainsi|par conséquent|par suite|il vient|on obtient|on en déduit|il s'ensuit|on trouve|alors|"
         "luego|por tanto|por lo tanto|por consiguiente|entonces|se obtiene|obtenemos|resulta|se sigue|de donde|"
         "quindi|dunque|perciò|pertanto|allora|si ottiene|ne segue|segue che|da cui|si ricava|otteniamo|risulta|"
-        "portanto|assim|então|daí|donde|obtemos|obtém-se|segue que|segue-se|por conseguinte|"
+        "portanto|assim|então|daí|obtemos|obtém-se|segue que|segue-se|por conseguinte|"
         "zatem|więc|stąd|otrzymujemy|dostajemy|wynika|skąd|wobec tego|"
         "alltså|således|härav|följaktligen|därmed|vi får|man får|det följer|följer att|"
         "следовательно|значит|поэтому|откуда|отсюда|тогда|итак|таким образом|получаем|получим|следует|тем самым|"
@@ -254,13 +256,24 @@ constexpr std::pair<std::string_view, const char*> names_of_energies[] = {{"kine
                                                                           {"ラグランジアン", "L"},
                                                                           {"ラグランジュ関数", "L"}};
 
+/// "Las derivadas del lagrangiano": what is named there belongs to the noun before it.
+bool is_genitive(std::string_view before) {
+    static constexpr std::string_view of[] = {" del ",   " de la ", " de l'", " du ",
+                                              " della ", " dell'",  " da ",   " do "};
+    return std::any_of(std::begin(of), std::end(of), [&](std::string_view one) { return before.ends_with(one); });
+}
+
 }  // namespace
 
 const char* spoken_energy(std::string_view words) {
     const std::string sentence = trimmed_sentence(words);
     for (const auto& [name, letter] : names_of_energies)
-        for (const std::string_view verb : verbs_of_energies)
-            if (sentence.ends_with(std::string(name) + std::string(verb))) return letter;
+        for (const std::string_view verb : verbs_of_energies) {
+            const std::string said = std::string(name) + std::string(verb);
+            if (sentence.ends_with(said) &&
+                !is_genitive(std::string_view(sentence).substr(0, sentence.size() - said.size())))
+                return letter;
+        }
     return nullptr;
 }
 
@@ -306,20 +319,8 @@ bool speaks_of_motion_of(std::string_view words, const std::string& name) {
     for (const char* const what :
          {"的速度", "的位置", "的坐标", "的加速度", "の速度", "の位置", "の座標", "の加速度"})
         if (sentence.find(lower + what) != std::string::npos) return true;
-    return has_phrase(
-        sentence,
-        "the " + lower +
-            " is at|the |"
-            "bewegen|bewegungen|pendelt|pendeln|beschleunig*|se déplace|se meut|se "
-            "déplacent|oscille|oscillent|accélér*|"
-            "se mueve|se mueven|oscila|oscilan|acelera*|moto|si muove|si muovono|oscilla|oscillano|accelerazione|"
-            "move-se|se move|se movem|movimento|oscilam|aceler*|porusza się|poruszają "
-            "się|ruch|ruchu|ruchem|kołysze się|drga|"
-            "drgają|przyspiesz*|rör sig|rörelse|rörelsen|rörelseekvation*|svänger|pendlar|accelerer*|därefter|"
-            "движется|движутся|движени*|колеблется|колеблются|качается|качаются|опускается|поднимается|ускорени*|"
-            "運動する*|運動方程式*|運動中*|運動の間*|動く*|動き*|振れる*|振動する*|揺れる*|その後*|下降*|上昇*|"
-            "加速*" +
-            lower + " has the velocity|the " + lower + " moves with");
+    return has_phrase(sentence,
+                      "the " + lower + " is at|the " + lower + " has the velocity|the " + lower + " moves with");
 }
 
 bool speaks_of_frequency(std::string_view words) {

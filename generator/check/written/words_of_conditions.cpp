@@ -47,9 +47,7 @@ bool states_condition(std::string_view words) {
         "hålls fast|hålls stilla|är fix|är fixerad|är låst|rör sig inte|inte rör sig|roterar inte|är i vila|"
         "står stilla|försvinner|закреплён*|закреплен*|неподвижен|неподвижна|неподвижно|неподвижны|не движется|"
         "не вращается|покоится|находится в покое|удержива*|обращается в нуль|обращается в ноль|заторможен*|"
-        "動かない*|静止している*|静止していれば*|回らない*|回転しない*|止まって*|0になる*|"
-        "seria|teria|até que|byłby|byłaby|byłoby|miałby|miałaby|skulle|vore|tills|был бы|была бы|было бы|были бы|"
-        "до тех пор|であれば*|とすれば*|のときは*|ときには*|場合は*|場合には*|限りは*|している間*");
+        "動かない*|静止している*|静止していれば*|回らない*|回転しない*|止まって*|0になる*");
     return is_conditional && holds_something;
 }
 
@@ -75,38 +73,24 @@ bool is_conditional(std::string_view words) {
         std::find_if(std::begin(beginnings), std::end(beginnings), [&](std::string_view beginning) {
             return sentence.starts_with(beginning) && !(beginning == "si " && !is_si_for_if(sentence));
         });
-    const bool is_chinese =
-        has_phrase(sentence,
-                   "当*时*|若*|如果*|假如*|假定*|"
-                   "modo normale|modo proprio|modo próprio|postaci drgań|svängningsmod*|egenmod*|egensvängning*|"
-                   "нормальном колебании|главном колебании|форме колебаний|振動モード*|固有モード*|基準振動*");
+    const bool is_chinese = has_phrase(sentence, "当*时*|若*|如果*|假如*|假定*");
     const bool is_supposed = has_phrase(
         sentence,
         "would|until|wäre|hätte|würde|aurait|serait|jusqu'à|sería|serían|tendría|hasta|"
         "sarebbe|avrebbe|fino a|の場合*|のとき*|ならば*|直到*|"
-        "in dem|in jeder|en cada|dans chaque|nel|in questo|neste|em cada|w tej|w każdej|i den|i denna|i varje|"
-        "в|в каждом|では*|において*|で*");
+        "seria|teria|até que|byłby|byłaby|byłoby|miałby|miałaby|skulle|vore|tills|был бы|была бы|было бы|были бы|"
+        "до тех пор|であれば*|とすれば*|のときは*|ときには*|場合は*|場合には*|限りは*|している間*");
     // "In the elastic mode the discs move against each other"
     const bool is_of_mode =
         has_phrase(sentence,
                    "mode|eigenform|eigenschwingung|振型*|mode propre|modo normal|modo propio|"
-                   "einsetzen|setzt man|setzen "
-                   "wir|integrier*|vergleich*|substitu*|développ*|soustra*|appliqu*|utilis*|écri*|"
-                   "introdui*|intègr*|desarroll*|simplific*|sumamos|sumando|aplic*|usamos|usando|utiliz*|escrib*|"
-                   "introduc*|"
-                   "sostitu*|inseri*|svilupp*|semplific*|moltiplic*|sommiamo|sommando|sottra*|confront*|usiamo|"
-                   "scriv*|raccogl*|"
-                   "desenvolv*|somamos|somarmos|usarmos|escrev*|introduz*|podstaw*|wstaw*|różniczk*|pochodn*|"
-                   "uproś*|mnoż*|"
-                   "pomnoż*|dzieląc|podziel*|dodaj*|dodam*|odejm*|wyelimin*|porówn*|zastosuj*|skorzysta*|użyj*|"
-                   "zapisz*|napisz*|"
-                   "sätter vi in|sätter man in|insätt*|utveckl*|förenkl*|adder*|jämför*|använd*|tillämp*|skriv*|"
-                   "подстав*|дифференцир*|продифференцир*|производн*|разлож*|упрост*|упрощ*|умнож*|раздел*|слож*|"
-                   "вычит*|вычт*|"
-                   "исключ*|сравн*|примен*|использ*|воспольз*|запис*|запиш*|введ*|введём|перейд*|перейт*|"
-                   "微分*|加え*|引いて*|引くと*|掛け*|割ると*|割れば*|割って*|用い*|使う*|使えば*|使って*|書け*|"
-                   "書く*|まとめ*") &&
-        has_phrase(sentence, "in the|in this|in each|in der|in dieser|en el|en este|dans le|dans ce|在*");
+                   "modo normale|modo proprio|modo próprio|postaci drgań|svängningsmod*|egenmod*|egensvängning*|"
+                   "нормальном колебании|главном колебании|форме колебаний|振動モード*|固有モード*|基準振動*") &&
+        has_phrase(
+            sentence,
+            "in the|in this|in each|in der|in dieser|en el|en este|dans le|dans ce|在*|"
+            "in dem|in jeder|en cada|dans chaque|nel|in questo|neste|em cada|w tej|w każdej|i den|i denna|i varje|"
+            "в|в каждом|では*|において*|で*");
     if (is_of_mode) return true;
     if (begun == std::end(beginnings) && !is_chinese && !is_supposed) return false;
     // "If we substitute this, we get" is no condition of the mechanism's
@@ -115,7 +99,20 @@ bool is_conditional(std::string_view words) {
         "simplif*|rearrang*|compar*|add|adding|subtract*|equat*|use|using|apply|applying|write|writing|collect*|"
         "einsetz*|einges*|ableit*|abgeleitet|differenzier*|multipliz*|umform*|addier*|subtrahier*|eliminier*|"
         "verwend*|代入*|求导*|微分*|整理*|展开*|相加*|相减*|消去*|sustitu*|deriv*|dériv*|rempla*|"
-        "multipli*|élimin*|simplifi*";
+        "multipli*|élimin*|simplifi*|"
+        "einsetzen|setzt man|setzen wir|integrier*|vergleich*|substitu*|développ*|soustra*|appliqu*|utilis*|écri*|"
+        "introdui*|intègr*|desarroll*|simplific*|sumamos|sumando|aplic*|usamos|usando|utiliz*|escrib*|introduc*|"
+        "sostitu*|inseri*|svilupp*|semplific*|moltiplic*|sommiamo|sommando|sottra*|confront*|usiamo|scriv*|"
+        "raccogl*|"
+        "desenvolv*|somamos|somarmos|usarmos|escrev*|introduz*|podstaw*|wstaw*|różniczk*|pochodn*|uproś*|mnoż*|"
+        "pomnoż*|dzieląc|podziel*|dodaj*|dodam*|odejm*|wyelimin*|porówn*|zastosuj*|skorzysta*|użyj*|zapisz*|"
+        "napisz*|"
+        "sätter vi in|sätter man in|insätt*|utveckl*|förenkl*|adder*|jämför*|använd*|tillämp*|skriv*|"
+        "подстав*|дифференцир*|продифференцир*|производн*|разлож*|упрост*|упрощ*|умнож*|раздел*|слож*|вычит*|вычт*"
+        "|"
+        "исключ*|сравн*|примен*|использ*|воспольз*|запис*|запиш*|введ*|введём|перейд*|перейт*|"
+        "微分*|加え*|引いて*|引くと*|掛け*|割ると*|割れば*|割って*|用い*|使う*|使えば*|使って*|書け*|書く*|"
+        "まとめ*";
     return !has_phrase(sentence, operations) && !speaks_of_motion(sentence);
 }
 
