@@ -323,9 +323,10 @@ std::vector<WrittenToken> DocumentReader::latex_tokens(std::size_t begin, std::s
 void DocumentReader::add_word(std::vector<WrittenToken>& tokens, const std::string& word, std::size_t offset) {
     if (!tokens.empty() && tokens.back().kind == LineKind::text) {
         std::string& text = tokens.back().text;
-        const auto begins_han = [](char c) { return static_cast<unsigned char>(c) >= 0xE0; };  // of three bytes
-        const bool ends_han = text.size() > 3 && begins_han(text[text.size() - 4]);
-        if (ends_han && begins_han(word[0])) text.pop_back();  // 平衡时 is one word
+        const auto is_wide = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+        const bool is_adjacent = tokens.back().offset + tokens.back().length == offset;
+        const bool are_wide = text.size() > 1 && is_wide(text[text.size() - 2]) && is_wide(word[0]);
+        if (is_adjacent && are_wide) text.pop_back();  // 平衡时 is one word, and each of its signs a token
         text += word + " ";
         tokens.back().length = offset + word.size() - tokens.back().offset;
         return;
