@@ -189,16 +189,17 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         notes_.back().claim = {};
         return;
     }
+    if (holds_at_stated_place(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
+        line.status = LineStatus::right;
+        line.reason = say("where {}", told_values(stated_place_));
+        line.follows_from.reset();
+        notes_.back().claim = {};
+        return;
+    }
     if (line.status != LineStatus::mistake) return;
     if (holds_to_digits(sides)) {
         line.status = LineStatus::right;
         line.reason = say("to the digits that are written");
-        notes_.back().claim = {};
-        return;
-    }
-    if (holds_at_stated_place(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
-        line.status = LineStatus::right;
-        line.reason = say("where {}", told_values(stated_place_));
         notes_.back().claim = {};
         return;
     }

@@ -484,6 +484,27 @@ std::size_t item_length(std::string_view line) {
     return at > number && rest.substr(at).starts_with(". ") ? begin + at + 2 : 0;
 }
 
+/// The length of a line without "(3 points)" or "（3分）" at its end.
+std::size_t length_without_points(std::string_view line) {
+    static constexpr std::string_view words[] = {"分",     "points", "point", "P",      "P.",    "Punkte", "Pkt.", "pts",
+                                                 "pt",     "marks",  "mark",  "puntos", "punti", "pontos", "pkt",  "баллов",
+                                                 "балла",  "балл",   "poäng", "p",      "点"};
+    static constexpr std::pair<std::string_view, std::string_view> brackets[] = {{"(", ")"}, {"（", "）"}, {"[", "]"},
+                                                                                 {"（", ")"}, {"(", "）"}};
+    const std::string_view text = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    for (const auto& [open, close] : brackets) {
+        const std::size_t begin = text.rfind(open);
+        if (!text.ends_with(close) || begin == std::string_view::npos) continue;
+        const std::size_t from = begin + open.size();
+        const std::string_view inside = trimmed(text.substr(from, text.size() - close.size() - from));
+        const std::size_t digits = std::min(inside.find_first_not_of("0123456789"), inside.size());
+        const std::string_view word = trimmed(inside.substr(digits));
+        if (digits > 0 && std::find(std::begin(words), std::end(words), word) != std::end(words))
+            return std::min(text.find_last_not_of(" \t", begin - (begin > 0 ? 1 : 0)) + 1, begin);
+    }
+    return line.size();
+}
+
 }  // namespace
 
 bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
@@ -504,7 +525,8 @@ bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
             break;
         after = next;
     }
-    std::size_t stop = end_of_formula(slice(from, after)) + from;
+    const std::size_t last = from + length_without_points(slice(from, after));
+    std::size_t stop = end_of_formula(slice(from, last)) + from;
     if (stop - from > 4 && text_.compare(stop - 2, 2, "**") == 0) stop -= 2;
     const bool is_latex = has_command(slice(from, stop));
     std::vector<WrittenToken> tokens = is_latex ? latex_tokens(from, stop) : labelled_tokens(from, stop);
