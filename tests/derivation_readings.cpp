@@ -10,12 +10,14 @@
 #include "check/derivation/marked.hpp"
 #include "check/written/sentences.hpp"
 #include "check/written/words.hpp"
+#include "derivation_statuses.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
 
 namespace derivation_readings {
 
 using namespace alembert;
+using test::statuses;
 
 namespace {
 
@@ -48,20 +50,6 @@ potential = "k*(x^2 + y^2)/2"
 const std::string pendulum = plain, hoop = test::textbook_text("rotating_hoop"),
                   spherical = test::textbook_text("spherical_pendulum"),
                   spring = test::textbook_text("elastic_pendulum");
-
-/// One letter a line: R right, D definition, M mistake, F follows, U unfounded, and - for what is not judged.
-std::string statuses(const std::string& scene, const std::string& text, const std::string& file = "test.md") {
-    const Marked marked = mark(parse_scene(scene, "scene.toml"), read_derivation(text, file));
-    std::string result;
-    for (const MarkedLine& line : marked.lines)
-        result += is_right(line.status)                   ? 'R'
-                  : line.status == LineStatus::definition ? 'D'
-                  : line.status == LineStatus::mistake    ? 'M'
-                  : line.status == LineStatus::follows    ? 'F'
-                  : line.status == LineStatus::unfounded  ? 'U'
-                                                          : '-';
-    return result;
-}
 
 }  // namespace
 

@@ -533,8 +533,7 @@ bool Marker::follows(MarkedLine& line, const Sides& sides) {
     }
     const bool is_of_rest = says_rest() && !holds_rates(*sides.lhs) && !holds_rates(*sides.rhs);
     if (!line.follows_from && is_of_rest)
-        line.follows_from =
-            own_.explained_at_rest([&](const ex& e) { return is_same_at_rest(own.residual, e); });
+        line.follows_from = own_.explained_at_rest([&](const ex& e) { return is_same_at_rest(own.residual, e); });
     if (!line.follows_from) return false;
     line.status = LineStatus::follows;
     line.reason = say("it follows from line {}", lines[*line.follows_from].line);

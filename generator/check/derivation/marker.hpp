@@ -180,6 +180,7 @@ private:
     bool is_an_inertia(const GiNaC::ex& value);
     std::vector<GiNaC::ex> energies_with_inertia(const GiNaC::ex& value);
     bool follows_from_inertia(MarkedLine& line, const Sides& sides);
+    bool is_from_inertia(MarkedLine& line, const std::function<std::optional<std::size_t>()>& from);
     bool is_same_at_rest(const GiNaC::ex& residual, const GiNaC::ex& other) const;
     bool follows(MarkedLine& line, const Sides& sides);
     bool is_potential_of_all(MarkedLine& line, const Sides& sides);
@@ -301,11 +302,11 @@ private:
         std::string point;
         bool is_velocity;
     };
-    std::map<Letter, Motion> motions_;    ///< letters that are places and velocities
-    std::set<Letter> frequency_letters_;  ///< ω that the derivation has found
+    std::map<Letter, Motion> motions_;           ///< letters that are places and velocities
+    std::set<Letter> frequency_letters_;         ///< ω that the derivation has found
     std::map<std::size_t, GiNaC::ex> inertias_;  ///< lines that define a moment of inertia that the scene has not
     std::map<std::string, std::size_t> counts_;  ///< the largest number of x_1, x_2 …, by letter
-    std::set<Letter> of_rate_;  ///< those of which only the rate has been said: φ of φ' = x'/r
+    std::set<Letter> of_rate_;                   ///< those of which only the rate has been said: φ of φ' = x'/r
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
@@ -356,11 +357,11 @@ private:
     std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
-    std::set<std::string> constants_;  ///< names of constants of the motion that the derivation calls by a word
-    bool is_autonomous_ = false;       ///< whether nothing in the system changes with time by itself
+    std::set<std::string> constants_;    ///< names of constants of the motion that the derivation calls by a word
+    bool is_autonomous_ = false;         ///< whether nothing in the system changes with time by itself
     bool has_potential_of_all_ = false;  ///< whether V has been stated with the potential of loads
-    bool has_told_forces_ = false;     ///< whether a line has shown which forces are in Q
-    bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
+    bool has_told_forces_ = false;       ///< whether a line has shown which forces are in Q
+    bool all_forces_ = false;            ///< whether its generalized forces contain those of the potential
 };
 
 }  // namespace alembert

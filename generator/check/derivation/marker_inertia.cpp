@@ -15,7 +15,7 @@ namespace {
 /// A body that turns in a plane, and its share of the kinetic energy.
 struct Turning {
     std::string name;
-    ex inertia;                ///< about its mass centre
+    ex inertia;                  ///< about its mass centre
     ex moving = 0, turning = 0;  ///< the two parts of its kinetic energy
 };
 
@@ -43,7 +43,8 @@ bool Marker::is_an_inertia(const ex& value) {
         return is_identically_zero(m.z->name(2 * energy - value * square_of_rate), m);
     };
     ex moving, turning;
-    for (const Turning& body : turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
+    for (const Turning& body :
+         turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
         const ex square = 2 * body.turning / body.inertia;
         if (is_it(body.turning, square) || is_it(body.moving + body.turning, square)) return true;
     }
@@ -58,7 +59,8 @@ std::vector<ex> Marker::energies_with_inertia(const ex& value) {
     const Mechanism& m = system_.mechanism();
     const ex T = m.kinetic_energy();
     std::vector<ex> result;
-    for (const Turning& body : turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
+    for (const Turning& body :
+         turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
         const ex turning = body.turning * value / body.inertia;
         result.push_back(m.z->name(T - body.turning + turning));
         result.push_back(m.z->name(T - body.turning - body.moving + turning));  // about a fixed point
@@ -69,19 +71,20 @@ std::vector<ex> Marker::energies_with_inertia(const ex& value) {
 
 /// A line that is right with the author's moment of inertia follows from its definition, which is the mistake.
 bool Marker::follows_from_inertia(MarkedLine& line, const Sides& sides) {
-    MotionRows& rows = system_.rows();
+    return is_from_inertia(line, [&] {
+        const MotionRow own = system_.rows().row(own_residual(sides));
+        return system_.rows().is_identity(own) == true ? own_.wrong_in(sides.own_names())
+                                                       : own_.explained_by(own, speaks_of_small_);
+    });
+}
+
+/// `from` says from which line it follows, in a world with such a moment.
+bool Marker::is_from_inertia(MarkedLine& line, const std::function<std::optional<std::size_t>()>& from) {
     const std::string T = letters_.name_of(MechanicalQuantity::kinetic);
-    for (std::size_t d = 0; d < lines.size(); ++d) {
-        const auto stated = inertias_.find(d);
-        if (stated == inertias_.end() || lines[d].status != LineStatus::definition) continue;
-        for (const ex& energy : energies_with_inertia(stated->second)) {
-            const bool is_so = own_.state_if(T, energy, d, [&] {
-                const MotionRow own = rows.row(own_residual(sides));
-                line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
-                                                                  : own_.explained_by(own, speaks_of_small_);
-                return line.follows_from.has_value();
-            });
-            if (!is_so) continue;
+    for (const auto& [d, inertia] : inertias_) {
+        if (lines[d].status != LineStatus::definition) continue;
+        for (const ex& energy : energies_with_inertia(inertia)) {
+            if (!own_.state_if(T, energy, d, [&] { return (line.follows_from = from()).has_value(); })) continue;
             lines[d].status = LineStatus::mistake;
             lines[d].reason = say("no body of the scene has this moment of inertia");
             notes_[d].is_sure = true;

@@ -648,7 +648,8 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
     if (power == 1) hold_momenta(name, text, own, wrong);
     const bool names_inertia = is_letter_of_inertia(letter.letter) && power == 1;
-    if (names_inertia && !wrong && is_of_parameters(truth) && !is_an_inertia(truth)) inertias_[lines.size()] = truth;
+    if (names_inertia && !wrong && is_of_parameters(truth) && !is_an_inertia(truth))
+        inertias_[lines.size()] = truth;
 }
 
 /// U_eff(θ) = V + J²/(2 m l² sin²θ): ∂U/∂θ is taken with J held, ∂H/∂p with q held, of what the author has

@@ -132,8 +132,10 @@ bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, co
 
 /// An integral of the derivation's own wrong equations.
 void Marker::follows_as_constant(MarkedLine& line, const ClaimText& text) {
-    const ex rate = system_.mechanism().time_derivative({own_.value(text.text)})[0];
-    line.follows_from = own_.explained_by(system_.rows().row(rate), speaks_of_small_);
+    const MotionRow rate = system_.rows().row(system_.mechanism().time_derivative({own_.value(text.text)})[0]);
+    const auto from = [&] { return own_.explained_by(rate, speaks_of_small_); };
+    line.follows_from = from();
+    if (!line.follows_from && is_from_inertia(line, from)) return;
     if (!line.follows_from) return;
     line.status = LineStatus::follows;
     line.reason = say("it follows from line {}", lines[*line.follows_from].line);
@@ -161,7 +163,8 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
         const ex name = truth_.value(claim_text(*lone.letter, as_written()).text);
         const Math& stated = is_left ? rhs : lhs;
         const std::optional<ex> datum = datum_of(name, stated);
-        const ex value = datum ? m.z->expand(*datum) : m.z->expand(truth_.value(claim_text(stated, as_written()).text));
+        const ex value =
+            datum ? m.z->expand(*datum) : m.z->expand(truth_.value(claim_text(stated, as_written()).text));
         if (!GiNaC::is_a<GiNaC::symbol>(name) || value.has(name)) return;
         set_special_value(name, GiNaC::pow(value, GiNaC::numeric(1, lone.power)));
         stop_input(name, value);

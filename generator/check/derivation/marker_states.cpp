@@ -271,7 +271,8 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
         notes_.back().claim = {};
         return true;
     }
-    const bool is_energy_given = mentions_impact_ && sides.left.text == letters_.name_of(MechanicalQuantity::kinetic) &&
+    const bool is_energy_given = mentions_impact_ &&
+                                 sides.left.text == letters_.name_of(MechanicalQuantity::kinetic) &&
                                  is_of_parameters(truth_.value(sides.right.text));  // T = S² b²/(2 I)
     if (!(speaks_of_impact_ || is_energy_given || speaks_of_conservation(said_)) ||
         system_.scene().impulses.empty() || (has_quantities(sides) && !is_energy_given) ||

@@ -159,8 +159,7 @@ void Marker::take_in_displacement(const Math& lhs, const Math& rhs) {
     MotionRows& rows = system_.rows();
     for (int i = 0; i < m.size(); ++i) {
         const Displacements displacements = along(m, i);
-        const ClaimWriting own{
-            .letters = letters_, .steps = &own_.steps(), .displacements = &displacements};
+        const ClaimWriting own{.letters = letters_, .steps = &own_.steps(), .displacements = &displacements};
         const ClaimText place = claim_text(lhs, {.letters = letters_, .displacements = &displacements});
         const ex stated = own_.value(claim_text(rhs, own).text);
         if (rows.is_identity(rows.row(stated - truth_.value(place.text))) != true)
@@ -233,8 +232,8 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
         }
         texts.push_back(text.text);
         truth.push_back(truth_.value(text.text));
-        const ClaimText derived = claim_text(
-            rhs, {.letters = letters_, .steps = &own_.steps(), .displacements = &displacements});
+        const ClaimText derived =
+            claim_text(rhs, {.letters = letters_, .steps = &own_.steps(), .displacements = &displacements});
         own.push_back(own_.value(derived.text));
         names.insert(derived.names.begin(), derived.names.end());
     }

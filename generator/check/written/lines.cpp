@@ -486,11 +486,11 @@ std::size_t item_length(std::string_view line) {
 
 /// The length of a line without "(3 points)" or "（3分）" at its end.
 std::size_t length_without_points(std::string_view line) {
-    static constexpr std::string_view words[] = {"分",     "points", "point", "P",      "P.",    "Punkte", "Pkt.", "pts",
-                                                 "pt",     "marks",  "mark",  "puntos", "punti", "pontos", "pkt",  "баллов",
-                                                 "балла",  "балл",   "poäng", "p",      "点"};
-    static constexpr std::pair<std::string_view, std::string_view> brackets[] = {{"(", ")"}, {"（", "）"}, {"[", "]"},
-                                                                                 {"（", ")"}, {"(", "）"}};
+    static constexpr std::string_view words[] = {"分",  "points", "point", "P",    "P.",     "Punkte", "Pkt.",
+                                                 "pts", "pt",     "marks", "mark", "puntos", "punti",  "pontos",
+                                                 "pkt", "баллов", "балла", "балл", "poäng",  "p",      "点"};
+    static constexpr std::pair<std::string_view, std::string_view> brackets[] = {
+        {"(", ")"}, {"（", "）"}, {"[", "]"}, {"（", ")"}, {"(", "）"}};
     const std::string_view text = line.substr(0, line.find_last_not_of(" \t\r") + 1);
     for (const auto& [open, close] : brackets) {
         const std::size_t begin = text.rfind(open);

@@ -144,8 +144,8 @@ bool joins_formulas(std::string_view words) {
     constexpr std::ptrdiff_t longest = 16, longest_in_han = 6;
     const auto is_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
     const std::ptrdiff_t letters = std::count_if(words.begin(), words.end(), is_letter);
-    const bool is_han = std::any_of(words.begin(), words.end(),
-                                    [](char c) { return static_cast<unsigned char>(c) >= 0xE0; });
+    const bool is_han =
+        std::any_of(words.begin(), words.end(), [](char c) { return static_cast<unsigned char>(c) >= 0xE0; });
     return letters < (is_han ? longest_in_han : longest) && !ends_sentence(words);
 }
 

@@ -34,9 +34,9 @@ bool is_conditioned_behind(const Written& written, const WrittenStatement& state
     if (close == std::string::npos || close > open + 80) return false;
     std::string words = written.text.substr(end, open - end);
     std::erase_if(words, [](char c) { return c == '$' || c == ' ' || c == ',' || c == '\n'; });
-    static const std::set<std::string> conditions{"at",  "when", "if", "for", "bei", "falls", "wenn",
-                                                  "für", "在",   "当", "en",  "si",  "pour",
-                                                  "при", "если", "per", "para", "dla", "gdy", "för", "om"};
+    static const std::set<std::string> conditions{"at",   "when", "if",   "for", "bei", "falls", "wenn",
+                                                  "für",  "在",   "当",   "en",  "si",  "pour",  "при",
+                                                  "если", "per",  "para", "dla", "gdy", "för",   "om"};
     return conditions.contains(words) && written.text.substr(open, close - open).find('=') != std::string::npos;
 }
 
