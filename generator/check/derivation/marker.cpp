@@ -176,13 +176,18 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
         line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
     } catch (const std::domain_error&) {  // θ = 0 where something is divided by θ
-        line.status = LineStatus::undecided;
-        line.reason = say("it could not be evaluated");
+        leave_undefined(line);
+    } catch (const std::overflow_error&) {
+        leave_undefined(line);
     }
     is_judging_ = false;
     try {
         weigh_condition(line, lhs, rhs);
     } catch (const NoMeaning&) {  // what has no value for itself is not excused
+    } catch (const std::domain_error&) {
+        leave_undefined(line);
+    } catch (const std::overflow_error&) {
+        leave_undefined(line);
     }
     if (line.status == LineStatus::follows && !is_judged_wrong(*line.follows_from)) {
         line.reason = say("it follows from line {}, which is not judged", lines[*line.follows_from].line);
@@ -196,6 +201,14 @@ void Marker::line(std::size_t s, std::size_t k) {
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
         take_in(s, k);
+}
+
+/// A division by zero is that line's alone.
+void Marker::leave_undefined(MarkedLine& line) {
+    line.status = LineStatus::undecided;
+    line.reason = say("it could not be evaluated");
+    line.follows_from.reset();
+    notes_.back().claim = {};
 }
 
 /// Whether something can follow from the line as from a mistake: definitions may be wrong too.

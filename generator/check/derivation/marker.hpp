@@ -156,6 +156,7 @@ private:
     bool is_condition_of_parameters(const Sides& sides);
     bool is_of_rest_unsaid(MarkedLine& line, const Sides& sides);
     bool holds_to_digits(const Sides& sides);
+    bool vanishes_at(const GiNaC::ex& residual, const GiNaC::exmap& place) const;
     bool holds_from_start(const GiNaC::ex& residual);
     bool holds_at_stated_place(const GiNaC::ex& residual);
     bool holds_where_held(const GiNaC::ex& residual);
@@ -177,6 +178,7 @@ private:
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
     void follows_as_constant(MarkedLine& line, const ClaimText& text);
+    bool is_foreign_inertia(const Letter& letter, const GiNaC::ex& value);
     bool is_an_inertia(const GiNaC::ex& value);
     std::vector<GiNaC::ex> energies_with_inertia(const GiNaC::ex& value);
     bool follows_from_inertia(MarkedLine& line, const Sides& sides);
@@ -275,6 +277,7 @@ private:
     bool repeats_law(const Math& value) const;
     void take_in_as(const Math& what, const Math& value);
     void use_all_forces(bool all);
+    void leave_undefined(MarkedLine& line);
     bool is_judged_wrong(std::size_t k) const;
     bool has_several_unknown(const Math& lhs, const Math& rhs) const;
     bool has_quantities(const Sides& sides) const;

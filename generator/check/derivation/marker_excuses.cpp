@@ -285,7 +285,7 @@ bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math&
     GiNaC::exmap start;
     for (const GiNaC::symbol& rate : m.qdot) start[rate] = 0;
     for (const auto& [letter, coordinate] : places_) start[coordinate] = letter;
-    if (!is_identically_zero(m.z->name(substitute(*m.z, {kept}, start)[0]), m)) return false;
+    if (!vanishes_at(kept, start)) return false;
     if (is_identically_zero(m.z->name(kept), m)) return false;
     return does_not_change(kept);
 }
@@ -325,10 +325,8 @@ bool Marker::holds_at_pose(const Sides& sides) {
     for (const GiNaC::symbol& rate : still_after_impact()) pose[rate] = 0;
     const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text);
     if (m.z->depends(left - right, m.qddot)) return false;
-    const auto holds = [&](const ex& residual) {
-        return is_identically_zero(m.z->name(substitute(*m.z, {residual}, pose)[0]), m);
-    };
-    return holds(left - right) || holds(GiNaC::pow(left, 2) - GiNaC::pow(right, 2));  // a speed has no sign
+    return vanishes_at(left - right, pose) ||
+           vanishes_at(GiNaC::pow(left, 2) - GiNaC::pow(right, 2), pose);  // a speed has no sign
 }
 
 }  // namespace alembert

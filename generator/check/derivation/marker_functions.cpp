@@ -170,7 +170,7 @@ bool Marker::is_at_number(MarkedLine& line, const Math& lhs, const Math& rhs) {
     GiNaC::exmap place{{m.q[0], truth_.value(number->text)}, {m.qdot[0], 0}};
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     if (m.z->depends(residual, m.qddot)) return false;
-    if (!is_identically_zero(m.z->name(substitute(*m.z, {residual}, place)[0]), m)) return false;
+    if (!vanishes_at(residual, place)) return false;
     line.status = LineStatus::right;
     line.reason = say("where {} = {}", m.q[0].get_name(), number->text);
     line.claim = sides.left.text + " = " + sides.right.text;
@@ -192,21 +192,29 @@ void Marker::note_place(const Math& lhs, const Math& rhs) {
     }
 }
 
+/// False too where something is divided by zero there.
+bool Marker::vanishes_at(const ex& residual, const GiNaC::exmap& place) const try {
+    const Mechanism& m = system_.mechanism();
+    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, place)[0]), m);
+} catch (const std::domain_error&) {
+    return false;
+} catch (const std::overflow_error&) {
+    return false;
+}
+
 /// Whether it keeps its value, and vanishes where the motion starts from rest.
 bool Marker::holds_from_start(const ex& residual) {
     const Mechanism& m = system_.mechanism();
     if (start_place_.empty() || displacements_ != nullptr || m.z->depends(residual, m.qddot)) return false;
     GiNaC::exmap start = start_place_;
     for (const GiNaC::symbol& rate : m.qdot) start[rate] = 0;
-    return is_identically_zero(m.z->name(substitute(*m.z, {residual}, start)[0]), m) && does_not_change(residual);
+    return vanishes_at(residual, start) && does_not_change(residual);
 }
 
 /// Whether the line follows from the equations at the place of the sentence.
 bool Marker::holds_at_stated_place(const ex& residual) {
     if (stated_place_.empty()) return false;
-    const Mechanism& m = system_.mechanism();
-    const ex there = substitute(*m.z, {residual}, stated_place_)[0];
-    return is_identically_zero(m.z->name(there), m) || follows_with(residual, stated_place_) ||
+    return vanishes_at(residual, stated_place_) || follows_with(residual, stated_place_) ||
            holds_where_held(residual);
 }
 

@@ -54,6 +54,12 @@ bool Marker::is_an_inertia(const ex& value) {
     });
 }
 
+/// A letter for a moment of inertia with a value that no body of the scene has.
+bool Marker::is_foreign_inertia(const Letter& letter, const ex& value) {
+    const bool is_letter = letter.base == "I" || letter.base == "J" || letter.base == "Theta";
+    return is_letter && !system_.scene().bodies.empty() && is_of_parameters(value) && !is_an_inertia(value);
+}
+
 /// The kinetic energies that a wrong moment of inertia would give.
 std::vector<ex> Marker::energies_with_inertia(const ex& value) {
     const Mechanism& m = system_.mechanism();

@@ -25,10 +25,6 @@ using Kind = Math::Kind;
 
 namespace {
 
-bool is_letter_of_inertia(const Letter& letter) {
-    return letter.base == "I" || letter.base == "J" || letter.base == "Theta";
-}
-
 /// "psi" of the index "psi_dot"; empty for one without a dot.
 std::string without_dot(const std::string& index) {
     constexpr std::string_view dot = "_dot";
@@ -76,6 +72,10 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
     std::vector<Binding> all = bindings_of(letter, system_.scene());
     if (counts_other_things(letter))
         for (Binding& binding : all) binding.named = false;
+    if (letter.base == "v" && letter.index.empty())
+        for (const char* const axis : {"x", "y", "z"})  // v² beside v_x and v_y is of the same point
+            if (const auto component = motions_.find({.base = "v", .index = axis}); component != motions_.end())
+                for (Binding& binding : all) binding.named = binding.named || binding.point == component->second.point;
     if (spoken_.empty()) return all;
     std::vector<Binding> own;
     for (Binding& binding : all)
@@ -203,6 +203,8 @@ bool Marker::introduce_ahead(const Letter& letter) {
                     if (&statement == statement_ && turned) continue;
                     if (&statement == statement_ && k > 0 && introduce(there, side, value)) return true;
                     if (&statement == statement_) continue;
+                    if (is_foreign_inertia(letter, truth_.value(claim_text(value, as_written()).text)))
+                        continue;  // the line may determine it, and the definition be the mistake
                     define(there, *lone.letter, value, lone.power);
                     ahead_.insert(letter);
                     return true;
@@ -647,9 +649,7 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
     if (power == 1) hold_momenta(name, text, own, wrong);
-    const bool names_inertia = is_letter_of_inertia(letter.letter) && power == 1;
-    if (names_inertia && !wrong && is_of_parameters(truth) && !is_an_inertia(truth))
-        inertias_[lines.size()] = truth;
+    if (power == 1 && !wrong && is_foreign_inertia(letter.letter, truth)) inertias_[lines.size()] = truth;
 }
 
 /// U_eff(θ) = V + J²/(2 m l² sin²θ): ∂U/∂θ is taken with J held, ∂H/∂p with q held, of what the author has

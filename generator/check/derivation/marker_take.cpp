@@ -35,6 +35,8 @@ void Marker::take_in(std::size_t s, std::size_t k) {
         own_.add_equation(std::move(own), lines.size() - 1, is_false(line.status),
                           line.status == LineStatus::right_near || speaks_of_small_);
     } catch (const NoMeaning&) {  // a side that has no meaning of its own states nothing
+    } catch (const std::domain_error&) {  // nor does one that is divided by zero
+    } catch (const std::overflow_error&) {
     }
 }
 

@@ -67,6 +67,14 @@ std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
                          [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
 }
 
+/// Whether the text says of the letter what it is.
+bool states(const Written& written, const Letter& letter) {
+    return std::any_of(written.statements.begin(), written.statements.end(), [&](const WrittenStatement& statement) {
+        const Letter* const own = statement.sides.size() > 1 ? alone_in(*statement.sides[0]) : nullptr;
+        return own != nullptr && *own == letter;
+    });
+}
+
 /// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.
 bool calls_coordinate_q(const Letters& letters, const Written& written) {
     const Letter q{.base = "q"};
@@ -117,6 +125,9 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     speaks_of_angular_momentum(statement.words))
                     letters.leave_to_author(*letter);
             }
+    for (const auto& [one, other] : {std::pair("T", "K"), std::pair("V", "U")})
+        if (states(written, {.base = one}) && !states(written, {.base = other}))
+            letters.leave_to_author({.base = other});  // p_φ = K, where T is the kinetic energy
     return letters;
 }
 

@@ -49,7 +49,8 @@ bool is_prose(std::string_view word) {
         "ou",    "est",  "les",  "des",   "une",  "con",  "por",   "que",   "los",  "las",   "del",   "not",
         "no",    "but",  "use",  "using", "set",  "find", "take",  "per",   "via",  "into",  "I",     "ein",
         "von",   "zur",  "zum",  "bei",   "auf",  "wie",  "nur",   "sur",   "qui",  "pas",   "una",   "che",
-        "nel",   "gli",  "uma",  "dla",   "gdy",  "nie",  "jak",   "och"};
+        "nel",   "gli",  "uma",  "dla",   "gdy",  "nie",  "jak",   "och",   "med",  "dvs",   "vid",   "ger",
+        "som",   "att",  "til"};
     if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
     const std::string lower = in_lower_case(word);
     if (std::find(std::begin(short_words), std::end(short_words), lower) != std::end(short_words) &&
