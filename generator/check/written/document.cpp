@@ -82,7 +82,10 @@ bool has_enclosed_latex(std::string_view text) {
 }
 
 DocumentReader::DocumentReader(const std::string& text, Markup markup)
-    : text_(text), markup_(markup), has_marks_(has_marks_of_latex(text)) {}
+    : text_(text), markup_(markup), has_marks_(has_marks_of_latex(text)) {
+    for (const char* const work : {"deltaW", "delta_W", "delta W"})
+        context_.has_virtual_work = context_.has_virtual_work || text.find(work) != std::string::npos;
+}
 
 std::vector<WrittenStatement> DocumentReader::statements() {
     std::size_t begin = 0, end = text_.size();

@@ -350,6 +350,7 @@ void WrittenLexer::word() {
             return;
         }
     }
+    if (spelled_variation(begin)) return;
     split_function(begin);
     const std::string text(text_.substr(begin, at_ - begin));
     if (!plain_word(begin, text)) {
@@ -358,6 +359,19 @@ void WrittenLexer::word() {
         token.letter = std::move(letter);
         token.dots = dots;
     }
+}
+
+/// The δ of delta_y and deltaW; what it varies is read next.
+bool WrittenLexer::spelled_variation(std::size_t begin) {
+    constexpr std::string_view delta = "delta";
+    const std::string_view word = text_.substr(begin, at_ - begin);
+    if (!context_.has_virtual_work || !word.starts_with(delta) || word.size() == delta.size()) return false;
+    const std::size_t rest = delta.size() + (word[delta.size()] == '_' ? 1 : 0);
+    if (rest == word.size() || !is_latin(word[rest])) return false;
+    at_ = begin + delta.size();
+    add(Kind::letter, begin).letter.base = delta;
+    at_ = begin + rest;
+    return true;
 }
 
 /// The letters before a function that is written together with them: mgLsinθ. The function is read next.

@@ -51,6 +51,7 @@ private:
     void word();
     bool bare_function();
     bool abbreviated_energy();
+    bool spelled_variation(std::size_t begin);
     void split_function(std::size_t begin);
     bool plain_word(std::size_t begin, const std::string& word);
     void delimiter(std::string_view which, std::size_t begin);

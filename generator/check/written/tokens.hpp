@@ -78,6 +78,7 @@ struct TokenContext {
     std::map<std::string, WrittenMacro, std::less<>> macros;
     std::size_t tokens = 0;    ///< so far
     std::size_t expanded = 0;  ///< bytes that macros became
+    bool has_virtual_work = false;  ///< whether plain text has delta_y for δy
 };
 
 inline constexpr std::size_t most_written_tokens = 100000;
