@@ -112,22 +112,12 @@ void Marker::run() {
     for (std::size_t s = 0; s < written_.statements.size(); ++s) {
         statement_ = &written_.statements[s];
         if (statement_->sides.size() == 1) continue;  // a letter among the words of the next one
-        words_after_ = words_behind(written_, *statement_);
-        if (statement_->displayed && begins_sentence(words_after_))
-            words_after_.clear();  // "For small r" of the next
-        said_ = statement_->words + " " + words_after_;
-        conditioned_behind_ = is_conditioned_behind(written_, *statement_);
-        if (speaks_of_exact_motion(statement_->words)) speaks_of_small_ = false;
-        if (speaks_of_general_case(statement_->words)) special_values_.clear(), case_.clear();
+        special_.hear(statement_->words);
         hear_special_values(statement_->words);
         if (ends_sentence(statement_->words) || statement_->displayed) stated_place_.clear();
-        is_case_settled_ = is_case_settled_ || holds_sentence(statement_->words);
-        begins_case_ =
-            begins_case_ || ends_sentence(statement_->words) || statement_->words.find("- ") != std::string::npos;
-        speaks_of_small_ = speaks_of_small_ || statement_->first_order ||
-                           speaks_of_first_order(words_after_);  // … for small angles
-        hear(statement_->words);
-        hear_conditions(statement_->words);
+        special_.hear_end(statement_->words);
+        heard_.take_in(written_, *statement_);
+        hear_bodies(statement_->words);
         if (statement_->sides.empty()) {
             MarkedLine line{.status = LineStatus::not_understood, .statement = s};
             line.offset = statement_->offset;
@@ -162,7 +152,7 @@ void Marker::line(std::size_t s, std::size_t k) {
         for (const auto& [letter, dots] : all) seen_.insert(letter);
     }
     relation_ = statement_->relations[k];
-    speaks_of_small_ = speaks_of_small_ || relation_ == Relation::approximately;
+    heard_.small = heard_.small || relation_ == Relation::approximately;
     is_judging_ = true;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
@@ -171,7 +161,7 @@ void Marker::line(std::size_t s, std::size_t k) {
         const bool is_state =
             lhs.kind == Kind::letter && rhs.kind == Kind::letter && sets_value(statement_->words);
         if (not_understood.unknown && !statement_->displayed && (is_number(rhs) || is_state))
-            under_condition_ = lines_of_condition;  // "with θ = θ_1 we get"
+            heard_.put_under_condition();  // "with θ = θ_1 we get"
         const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
         line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
         line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
@@ -194,10 +184,10 @@ void Marker::line(std::size_t s, std::size_t k) {
         line.status = LineStatus::not_about_scene;
         line.follows_from.reset();
     }
-    const bool is_of_rest = line.status == LineStatus::not_about_scene && is_rest_assumed_;
-    if (!is_of_rest && (holds_rates(lhs) || holds_rates(rhs))) is_rest_assumed_ = false;
+    const bool is_of_rest = line.status == LineStatus::not_about_scene && heard_.assumed_rest;
+    if (!is_of_rest && (holds_rates(lhs) || holds_rates(rhs))) heard_.assumed_rest = false;
     if (line.status == LineStatus::not_about_scene) notes_.back().claim = {};
-    if (!std::exchange(states_case_, false)) ++lines_of_case_;
+    special_.pass_line();
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
         take_in(s, k);
@@ -283,7 +273,7 @@ bool Marker::is_of_motion(const Math& side) const {
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
     if (relation == Relation::proportional) {  // among words it states a condition
         if (!statement_->displayed && (holds_rates(lhs) || holds_letters_that_move(lhs)))
-            under_condition_ = lines_of_condition;  // "while x' < 0"
+            heard_.put_under_condition();  // "while x' < 0"
         line.status = statement_->displayed ? LineStatus::not_understood : LineStatus::not_about_scene;
         line.reason = say("only equations are judged");
         return;
@@ -292,7 +282,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (states_general_law(lhs, letters_, displayed) || states_general_law(rhs, letters_, displayed)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("a law in general coordinates");
-        at_rest_of_rates_ = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
+        heard_.no_accelerations = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
         return;
     }
     if (judge_virtual(line, lhs, rhs) || is_frequency_equation(line, lhs, rhs)) return;
@@ -304,8 +294,8 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (is_of_limit(line, lhs)) return;
     if (is_of_state(line, lhs, rhs) || judge_value(line, lhs, rhs, relation)) return;
     if (judge_vector(line, lhs, rhs)) return;
-    const bool is_period = speaks_of_period_ || (lhs.letter.base == "T" && holds_whole_turn(rhs));
-    if (std::exchange(speaks_of_period_, is_period); is_period && lhs.kind == Kind::letter) {
+    const bool is_period = heard_.period || (lhs.letter.base == "T" && holds_whole_turn(rhs));
+    if (std::exchange(heard_.period, is_period); is_period && lhs.kind == Kind::letter) {
         if (is_frequency(line, lhs, rhs, 1)) return;
         if (lhs.letter == Letter{.base = "T"} && holds_whole_turn(rhs)) return define(line, lhs, rhs, 1);
     }
@@ -314,7 +304,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
                           is_frequency_again(line, *lone.letter, rhs, lone.power);  // of another state or case
     if (is_again) return;
     const bool is_reused =
-        lone.letter != nullptr && speaks_of_frequency_ && is_of_motion(*lone.letter);  // ω has been a speed above
+        lone.letter != nullptr && heard_.frequency && is_of_motion(*lone.letter);  // ω has been a speed above
     if (is_reused && is_frequency(line, *lone.letter, rhs, lone.power)) return;
     try {
         if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs, true)) return;
@@ -469,7 +459,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_balance(sides)) is_rest_assumed_ = true;
+    if (is_balance(sides)) heard_.assumed_rest = true;
     if (is_approximation(line, sides) || is_of_own_gauge(line, sides) || is_energy_of_part(line, sides) ||
         (is_aside() && is_assumption(line, sides)) || holds_after_impact(line, sides) ||
         is_assumption(line, sides) || is_reduced_momentum(line, sides))
@@ -489,7 +479,7 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
         return;
     }
     line.status = LineStatus::mistake;
-    if (speaks_of_small_) notes_.back().near = near_;
+    if (heard_.small) notes_.back().near = near_;
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
 }
 
@@ -535,11 +525,11 @@ bool Marker::is_same_at_rest(const ex& residual, const ex& other) const {
 bool Marker::follows(MarkedLine& line, const Sides& sides) {
     MotionRows& rows = system_.rows();
     const MotionRow own = rows.row(own_residual(sides));
-    line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
-                                                      : own_.explained_by(own, speaks_of_small_);
+    line.follows_from =
+        rows.is_identity(own) == true ? own_.wrong_in(sides.own_names()) : own_.explained_by(own, heard_.small);
     if (!line.follows_from) line.follows_from = own_.explained_by_relations(own.residual);
     if (!line.follows_from && is_from_own_hamiltonian(line, sides)) return true;
-    if (!line.follows_from && speaks_of_small_) {
+    if (!line.follows_from && heard_.small) {
         const BaseState base = near_ ? *near_ : base_states(system_.scene()).front();
         line.follows_from = own_.explained_by_linearizing(
             own.residual, [&](const ex& e) { return linear_part(e, base, system_); });

@@ -17,9 +17,11 @@
 #include "check/derivation/bindings.hpp"
 #include "check/derivation/claim_text.hpp"
 #include "check/derivation/first_order.hpp"
+#include "check/derivation/heard.hpp"
 #include "check/derivation/marked.hpp"
 #include "check/derivation/own_world.hpp"
 #include "check/derivation/rest_states.hpp"
+#include "check/derivation/special_values.hpp"
 
 namespace alembert {
 
@@ -203,8 +205,7 @@ private:
     std::vector<Binding> bindings(const Letter& letter) const;
     bool counts_other_things(const Letter& letter) const;
     void count_letters();
-    void hear(const std::string& words);
-    void hear_conditions(const std::string& words);
+    void hear_bodies(const std::string& words);
     void hear_special_values(const std::string& words);
     bool is_value_of_state(const Letter& letter) const;
     bool depends_on_state(const Letter& letter) const;
@@ -214,8 +215,6 @@ private:
     bool states_relation_of_constants(const Math& lhs, const Math& rhs);
     const Letter* place_of_rate(const Math& math) const;
     std::optional<std::string> excuse(const MarkedLine& line, const Math& lhs, const Math& rhs);
-    void hear_approximation(const std::string& words);
-    void hear_steady_motion(const std::string& words);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
     bool is_written_rate(const Math& side) const;
     bool is_wrong_derivative(MarkedLine& line, const Sides& sides);
@@ -227,8 +226,6 @@ private:
     void stop_input(const GiNaC::ex& name, const GiNaC::ex& value);
     void set_special_value(const GiNaC::ex& name, const GiNaC::ex& value);
     bool follows_in_special_case(const GiNaC::ex& residual);
-    bool has_data_alone() const;
-    bool is_case_fresh() const;
     bool follows_with(const GiNaC::ex& residual, const GiNaC::exmap& values);
     void settle_in_special_case(MarkedLine& line);
     std::string told_values(const GiNaC::exmap& values) const;
@@ -312,31 +309,17 @@ private:
     std::set<Letter> of_rate_;                   ///< those of which only the rate has been said: φ of φ' = x'/r
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
-    bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
-         speaks_of_period_ = false, speaks_of_roots_ = false, introduces_symbols_ = false,
-         speaks_of_gibbs_ = false, speaks_of_impact_ = false, mentions_impact_ = false;
     const WrittenStatement* statement_ = nullptr;
-    std::string words_after_, said_;       ///< behind the statement, and with those before it
+    Heard heard_;
     std::vector<BaseState> own_bases_;     ///< θ = π + ε: about which the author deviates
     std::optional<BaseState> near_;        ///< about which the derivation linearizes, once a line has shown it
-    bool speaks_of_small_ = false;         ///< whether the derivation has begun to linearize
     bool solves_constraints_ = false;      ///< whether its ∂/∂ψ' have been those of the independent rates
     std::set<Letter> seen_;                ///< letters of this line and those before
     Relation relation_ = Relation::equal;  ///< of the line
     bool is_new_law_ = false;              ///< whether the line states a letter that stands nowhere before
-    bool goes_on_ = false;                 ///< whether the words only join two formulas of one sentence
-    bool speaks_of_turning_axes_ = false;  ///< whether these turn
-    bool speaks_of_axes_ = false;          ///< whether the author has laid axes of his own
     bool has_own_gauge_ = false;           ///< whether its L differs from the scene's by a total derivative
-    static constexpr int lines_of_condition = 3;  ///< a display ends a sentence without a full stop
-    bool from_rest_ = false;                      ///< whether the words say that the motion starts from rest
-    bool is_rest_assumed_ = false;                ///< whether words or lines speak of rest, until a line has rates
-    bool is_of_special_start_ = false;  ///< whether a line has held for motions with a special start alone
-    int approximate_lines_ = 0;         ///< how many lines the words "neglecting …" may govern
-    int steady_lines_ = 0;              ///< how many lines what the words say of steady motion may govern
-    std::set<Letter> motion_letters_;   ///< in formulas of one motion: A and B of A cos ω t
-    bool conditioned_behind_ = false;   ///< whether the formula is followed by "at y = −l"
-    int under_condition_ = 0;           ///< how many lines the condition that the words state may govern
+    bool is_of_special_start_ = false;     ///< whether a line has held for motions with a special start alone
+    std::set<Letter> motion_letters_;      ///< in formulas of one motion: A and B of A cos ω t
     std::vector<std::unique_ptr<RestStates>> states_;  ///< of rest and of steady motion, in all cases and special
     std::set<Letter> state_letters_;                   ///< θ_0 of a coordinate θ
     GiNaC::exmap places_;                              ///< their symbols, with the coordinates
@@ -344,20 +327,15 @@ private:
     bool is_of_case_ = false;        ///< whether what was found last at rest is of special values
     std::set<Letter> rest_letters_;  ///< those of which a line has shown that they are values at rest
     bool is_state_wrong_ = false;    ///< whether one of these lines was wrong
-    bool states_case_ = false;       ///< whether this line states one of them
     bool is_judging_ = false;        ///< whether a line is being judged, and not its words heard
-    int lines_of_case_ = 0;          ///< how many lines have been judged since the last of them
-    bool begins_case_ = true;        ///< whether a sentence or an item of a list has begun since the last of them
-    GiNaC::exmap case_;              ///< those of the last sentence or item of a list
-    GiNaC::exmap special_values_;    ///< of parameters, as the derivation states them
     bool is_taken_there_ = false;    ///< U''(r) for U''(r_0): its coordinates are those of the state
     std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0
     GiNaC::exmap start_place_;       ///< φ = π/2 of "released from rest at φ = π/2"
     GiNaC::exmap stated_place_;      ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
-    GiNaC::exmap used_values_;       ///< those of them for which the last line followed
+    SpecialValues special_;
+    GiNaC::exmap used_values_;  ///< those of them for which the last line followed
     std::optional<std::vector<GiNaC::symbol>> still_after_impact_;  ///< rates that are zero then
-    bool is_case_settled_ = false;  ///< whether a sentence has ended since, and they may hold no longer
-    std::set<std::string> kept_;    ///< names of constants of the motion that are momenta, or written as such
+    std::set<std::string> kept_;  ///< names of constants of the motion that are momenta, or written as such
     const std::map<std::string, std::string>* displacements_ = nullptr;  ///< while a line with δ is judged
     std::map<std::string, std::string> held_;  ///< ∂ of the author's functions, with what they are written in held
     std::set<std::string> constants_;    ///< names of constants of the motion that the derivation calls by a word

@@ -35,28 +35,6 @@ bool speaks_of_time(const Math& math) {
 
 }  // namespace
 
-/// "Neglecting the square of Ω" is meant for a few lines.
-void Marker::hear_approximation(const std::string& words) {
-    constexpr int most_lines = 5;
-    if (neglects_terms(words))
-        approximate_lines_ = most_lines;
-    else if (speaks_of_exact_motion(words) || speaks_of_general_case(words))
-        approximate_lines_ = 0;
-    else if (approximate_lines_ > 0)
-        --approximate_lines_;
-}
-
-/// "Steady precession." is meant until the words go on to the motion in general.
-void Marker::hear_steady_motion(const std::string& words) {
-    constexpr int most_lines = 8;
-    if (mentions_special_motion(words))
-        steady_lines_ = most_lines;
-    else if (speaks_of_general_case(words) || speaks_of_motion(words))
-        steady_lines_ = 0;
-    else if (steady_lines_ > 0)
-        --steady_lines_;
-}
-
 /// x = ½ a t², θ = A cos ω t: one motion of a system that does not change with time. Letters such as A, which no
 /// equation gives, speak of that motion from then on.
 bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
@@ -114,9 +92,10 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     const Lone lone = lone_letter(lhs);
     const bool is_own = lone.letter != nullptr && !quantity_of(lone.letter->letter) &&
                         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or(""));
-    if (is_own && !special_values_.empty() && line.reason.empty())  // no frequency, which is judged for all cases
+    if (is_own && !special_.empty() && line.reason.empty())  // no frequency, which is judged for all cases
         return say("it may hold for values of parameters that stand above");
-    if (is_lone_force(lhs) && names_part_of_forces(said_)) return say("the words speak of a part of the forces");
+    if (is_lone_force(lhs) && names_part_of_forces(heard_.around))
+        return say("the words speak of a part of the forces");
     if (is_autonomous_ && (speaks_of_time(lhs) || speaks_of_time(rhs)))
         return say("it describes one motion; lines are judged for all motions");
     if (relation_ == Relation::approximately && has_quantities(sides_of(lhs, rhs)) &&
@@ -124,17 +103,17 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
         return say("an approximation of energies on constraints is not judged");
     for (const Mechanism::Input& input : system_.mechanism().inputs)
         for (const GiNaC::symbol& derivative : input.derivative)
-            if (special_values_.contains(derivative))
+            if (special_.contains(derivative))
                 return say("it may hold for the inputs that stand above; lines are judged for those of the scene");
     // T and V are what they are in every state, but not for every value of the parameters.
     const bool is_energy = lhs.kind == Kind::letter && lhs.dots == 0 && quantity_of(lhs.letter).has_value() &&
                            !letters_.is_of_scene(letters_.name_of(lhs.letter).value_or(""));
-    const bool is_rest_alone = speaks_of_rest_ && !holds_rates(lhs) && !holds_rates(rhs) &&
-                               !statement_->displayed && system_.mechanism().size() > 1;
-    const bool is_steady =
-        steady_lines_ > 0 && !is_accelerated(lhs) && !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
-    const bool is_approximate = approximate_lines_ > 0 && !has_quantities(sides_of(lhs, rhs));
-    const bool is_conditional = under_condition_ > 0 || is_rest_alone || is_steady || is_approximate;
+    const bool is_rest_alone = heard_.rest && !holds_rates(lhs) && !holds_rates(rhs) && !statement_->displayed &&
+                               system_.mechanism().size() > 1;
+    const bool is_steady = heard_.steady_lines > 0 && !is_accelerated(lhs) && !is_accelerated(rhs) &&
+                           !has_quantities(sides_of(lhs, rhs));
+    const bool is_approximate = heard_.approximate_lines > 0 && !has_quantities(sides_of(lhs, rhs));
+    const bool is_conditional = heard_.condition_lines > 0 || is_rest_alone || is_steady || is_approximate;
     if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
     if (is_own && !statement_->displayed && is_number(rhs) &&
@@ -148,7 +127,7 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
                                !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
     if (may_use_start) return say("it may hold for motions that start as the lines above say");
     if (!statement_->displayed && states_relation_of_constants(lhs, rhs)) {
-        under_condition_ = lines_of_condition;
+        heard_.put_under_condition();
         return say("a condition on parameters; lines are judged for all their values");
     }
     return std::nullopt;
@@ -295,7 +274,7 @@ bool Marker::keeps_its_start_at(const ex& residual, const Math& lhs, const Math&
 bool Marker::is_wrong_energy_of_start(const ex& residual, const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     const bool has_one = m.size() == static_cast<int>(system_.equations().A.size()) + 1 && places_.size() == 1;
-    if (!from_rest_ || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
+    if (!heard_.start_from_rest || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
         return false;
     if (!holds_rates(lhs) && !holds_rates(rhs)) return false;
     return does_not_change(truth_.value(letters_.name_of(MechanicalQuantity::energy)));

@@ -141,7 +141,7 @@ bool Marker::holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rh
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     const bool holds =
         system_.rows().holds(system_.rows().row(residual)) == true || holds_at_stated_place(residual);
-    const bool is_of_rest = is_rest_assumed_ || says_rest() || rhs.kind == Kind::number;
+    const bool is_of_rest = heard_.assumed_rest || says_rest() || rhs.kind == Kind::number;
     if (!holds && !(is_of_rest && is_of_rest_unsaid(line, sides))) return false;
     line.status = line.status == LineStatus::not_about_scene ? line.status : LineStatus::right;
     if (line.status == LineStatus::right) line.reason = say("a prime is read as the derivative by the coordinate");
@@ -188,7 +188,7 @@ void Marker::note_place(const Math& lhs, const Math& rhs) {
         const ex place = m.z->expand(truth_.value(value.text));
         if (!is_of_parameters(place)) continue;
         stated_place_[q] = place;
-        if (from_rest_) start_place_[q] = place;
+        if (heard_.start_from_rest) start_place_[q] = place;
     }
 }
 

@@ -80,7 +80,7 @@ bool Marker::follows_from_inertia(MarkedLine& line, const Sides& sides) {
     return is_from_inertia(line, [&] {
         const MotionRow own = system_.rows().row(own_residual(sides));
         return system_.rows().is_identity(own) == true ? own_.wrong_in(sides.own_names())
-                                                       : own_.explained_by(own, speaks_of_small_);
+                                                       : own_.explained_by(own, heard_.small);
     });
 }
 

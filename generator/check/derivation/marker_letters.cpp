@@ -75,7 +75,8 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
     if (letter.base == "v" && letter.index.empty())
         for (const char* const axis : {"x", "y", "z"})  // v² beside v_x and v_y is of the same point
             if (const auto component = motions_.find({.base = "v", .index = axis}); component != motions_.end())
-                for (Binding& binding : all) binding.named = binding.named || binding.point == component->second.point;
+                for (Binding& binding : all)
+                    binding.named = binding.named || binding.point == component->second.point;
     if (spoken_.empty()) return all;
     std::vector<Binding> own;
     for (Binding& binding : all)
@@ -88,12 +89,8 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
 
 /// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for
 /// another one are open again then.
-void Marker::hear(const std::string& words) {
-    if (std::none_of(words.begin(), words.end(), [](char c) {
-            const auto byte = static_cast<unsigned char>(c);
-            return byte >= 0x80 || std::isalpha(byte) != 0;
-        }))
-        return;
+void Marker::hear_bodies(const std::string& words) {
+    if (!holds_letters(words)) return;
     std::string spoken;
     std::set<std::string> all_spoken;
     const auto look_for = [&](const std::string& name) {
@@ -119,26 +116,6 @@ void Marker::hear(const std::string& words) {
         roaming_.clear();
     }
     spoken_ = spoken;
-    std::string lower = words;
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
-    const auto says = [&](std::initializer_list<const char*> list) {
-        return std::any_of(list.begin(), list.end(), [&](const char* part) {
-            return words.find(part) != std::string::npos || lower.find(part) != std::string::npos;
-        });
-    };
-    at_rest_of_rates_ = says({"q'' = 0"});
-    goes_on_ = !statement_->displayed && joins_formulas(words);  // "sin θ = 0 or cos θ = …"
-    speaks_of_frequency_ = (goes_on_ && speaks_of_frequency_) || speaks_of_frequency(words);
-    speaks_of_period_ = speaks_of_period(words);
-    speaks_of_roots_ = says({"with the roots", "其根"});
-    speaks_of_rest_ = (goes_on_ && speaks_of_rest_) || speaks_of_roots_ || alembert::speaks_of_rest(words);
-    if (speaks_of_motion(words)) is_rest_assumed_ = speaks_of_impact_ = false;
-    is_rest_assumed_ = is_rest_assumed_ || mentions_rest(words);
-    speaks_of_axes_ = speaks_of_axes_ || speaks_of_axes(words);
-    speaks_of_turning_axes_ = speaks_of_turning_axes_ || speaks_of_turning_axes(words);
-    speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
-    introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }
 
 /// Whether the statement holds accelerations, or letters that stand for some: m g − T = m a.
@@ -301,7 +278,7 @@ std::optional<ex> Marker::force_along_speed(const Letter& letter) const {
 bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool turned) {
     const Lone lone = lone_letter(lhs);
     if (lone.letter == nullptr) return false;
-    const bool is_gibbs = speaks_of_gibbs_ && lone.letter->letter.base == "S" && is_accelerated(rhs);
+    const bool is_gibbs = heard_.energy_of_accelerations && lone.letter->letter.base == "S" && is_accelerated(rhs);
     const auto name = letters_.name_of(lone.letter->letter);
     if (is_gibbs && name && letters_.is_of_scene(*name)) {  // an impulse S of the scene is another thing
         define(line, *lone.letter, rhs, lone.power);
@@ -314,7 +291,7 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool 
         if (line.status == LineStatus::right) line.status = LineStatus::definition;
         return true;
     }
-    if (introduces_symbols_ || letters_.is_authors(lone.letter->letter)) {
+    if (heard_.abbreviations || letters_.is_authors(lone.letter->letter)) {
         define(line, *lone.letter, rhs, lone.power);
         if (lone.power == 1 && speaks_of_angular_momentum(statement_->words)) hold_against_momenta(line, rhs);
         return true;
@@ -343,7 +320,7 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
         return rows.is_identity(rows.row(stated - momentum)) == true;
     });
     const bool is_kept = does_not_change(stated);
-    if (!is_one && !is_kept && speaks_of_conservation(said_)) {
+    if (!is_one && !is_kept && speaks_of_conservation(heard_.around)) {
         line.status = LineStatus::mistake;
         line.reason = say("it does not keep its value");
         return;
@@ -419,7 +396,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
     };
     for (const Binding& binding : bindings(letter.letter)) {
         const ex here = truth_.value(binding.text),
-                 truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
+                 truth = heard_.no_accelerations ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, binding.point, true);
         const bool is_size = power == 1 && (binding.text.starts_with("sqrt(") ||  // v = l θ' has a sign
@@ -438,7 +415,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         if ((binding.named || is_said) && !named && !is_of_own_axes) named = truth, point = binding.point;
     }
     const bool is_component = letter.letter.base != "v" || component_of_axis(letter.letter);
-    if (named && ((speaks_of_turning_axes_ && is_component) || is_on_other_axis(letter.letter, value))) {
+    if (named && ((heard_.turning_axes && is_component) || is_on_other_axis(letter.letter, value))) {
         define(line, letter, rhs, power);
         return true;
     }
@@ -462,7 +439,7 @@ bool Marker::is_on_other_axis(const Letter& letter, const ex& value) {
         });
     };
     const Scene& scene = system_.scene();
-    if (!speaks_of_axes_ && is_in_plane(scene.particles) && is_in_plane(scene.bodies)) return false;
+    if (!heard_.axes && is_in_plane(scene.particles) && is_in_plane(scene.bodies)) return false;
     for (const Binding& binding : other_axes_of(letter, system_.scene())) {
         const ex truth = truth_.value(binding.text);
         if (rows.is_identity(rows.row(truth - value)) == true || rows.is_identity(rows.row(truth + value)) == true)
@@ -636,7 +613,7 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
             return;
         }
     }
-    if (!statement_->displayed && is_number(rhs)) under_condition_ = lines_of_condition;  // "at the pole, λ = π/2"
+    if (!statement_->displayed && is_number(rhs)) heard_.put_under_condition();  // "at the pole, λ = π/2"
     const ClaimText text = claim_text(rhs, {.letters = letters_}),
                     own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
     const GiNaC::numeric exponent(1, power);

@@ -116,7 +116,8 @@ bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, co
     static const std::set<std::string> of_integrals{"h", "H", "J", "E", "C", "K", "I"};
     const bool is_named = statement_->displayed && of_integrals.contains(letter.base) &&
                           says_conserved_is(statement_->words);  // "What is conserved is h = …"
-    const bool is_said = turned ? speaks_of_conservation(said_) : is_named || speaks_of_conservation(words_after_);
+    const bool is_said =
+        turned ? speaks_of_conservation(heard_.around) : is_named || speaks_of_conservation(heard_.behind);
     const bool is_integral = turned && statement_->displayed && is_letter_of_constant(letter);
     if (!(is_said || is_integral) || !m.z->depends(value, m.qdot)) return false;
     if (m.z->depends(value, m.qddot)) return false;
@@ -133,7 +134,7 @@ bool Marker::is_said_to_be_conserved(MarkedLine& line, const ClaimText& text, co
 /// An integral of the derivation's own wrong equations.
 void Marker::follows_as_constant(MarkedLine& line, const ClaimText& text) {
     const MotionRow rate = system_.rows().row(system_.mechanism().time_derivative({own_.value(text.text)})[0]);
-    const auto from = [&] { return own_.explained_by(rate, speaks_of_small_); };
+    const auto from = [&] { return own_.explained_by(rate, heard_.small); };
     line.follows_from = from();
     if (!line.follows_from && is_from_inertia(line, from)) return;
     if (!line.follows_from) return;
@@ -155,7 +156,7 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
     const Lone left = alone(lhs), right = alone(rhs);
     const bool is_left = is_parameter(left.letter);
     if (!is_left && !is_parameter(right.letter)) {
-        under_condition_ = lines_of_condition;
+        heard_.put_under_condition();
         return take_in_relation(lhs, rhs);
     }
     try {
@@ -169,9 +170,9 @@ void Marker::take_in_special_case(const Math& lhs, const Math& rhs) {
         set_special_value(name, GiNaC::pow(value, GiNaC::numeric(1, lone.power)));
         stop_input(name, value);
         const bool is_datum = GiNaC::is_a<GiNaC::numeric>(value) && !value.is_zero();
-        if (!is_datum) is_case_settled_ = false;  // k = 40 N/m holds for the whole page
+        if (!is_datum) special_.open();  // k = 40 N/m holds for the whole page
     } catch (const NoMeaning&) {
-        under_condition_ = lines_of_condition;
+        heard_.put_under_condition();
     }
 }
 
@@ -187,7 +188,7 @@ void Marker::take_in_relation(const Math& lhs, const Math& rhs) try {
         const ex slope = residual.coeff(p.symbol, 1);
         if (slope.is_zero()) continue;
         set_special_value(p.symbol, (-residual.coeff(p.symbol, 0) / slope).normal());
-        is_case_settled_ = false;
+        special_.open();
         return;
     }
 } catch (const NoMeaning&) {  // a letter that nothing gives
@@ -203,26 +204,14 @@ void Marker::stop_input(const ex& name, const ex& value) {
                     set_special_value(input.derivative[higher], 0);
 }
 
-/// The values stay in letters that have none: c_1 = c_2, then c_2 = 0.
 void Marker::set_special_value(const ex& name, const ex& value) {
-    const ex plain = value.subs(special_values_, GiNaC::subs_options::no_pattern);
-    if (plain.has(name)) return;
-    for (auto& [other, known] : special_values_)
-        known = known.subs(name == plain, GiNaC::subs_options::no_pattern);
-    special_values_[name] = plain;
-    lines_of_case_ = 0;
-    states_case_ = statement_->sides.size() > 1 && is_judging_;
-    if (begins_case_) case_.clear();
-    begins_case_ = false;
-    const ex own = value.subs(case_, GiNaC::subs_options::no_pattern);
-    for (auto& [other, known] : case_) known = known.subs(name == own, GiNaC::subs_options::no_pattern);
-    if (!own.has(name)) case_[name] = own;
+    const bool is_line = statement_->sides.size() > 1 && is_judging_;
+    special_.state(name, value, is_line ? SpecialValues::From::line : SpecialValues::From::words);
 }
 
 /// Whether the line follows from the equations of motion for the values that the derivation has stated.
 bool Marker::follows_in_special_case(const ex& residual) {
-    for (const GiNaC::exmap* values : {&std::as_const(special_values_), &std::as_const(case_)}) {
-        if (values == &case_ && case_.size() == special_values_.size()) continue;
+    for (const GiNaC::exmap* values : special_.cases()) {
         if (!follows_with(residual, *values)) continue;
         used_values_ = *values;
         return true;
@@ -252,8 +241,7 @@ bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
         return rows.follows(rows.row(parts[0]), pointers, bound);
     };
     if (follow(special, true)) return true;
-    if (!speaks_of_small_ || !m.z->depends(residual, m.qddot))
-        return false;  // energies have no part of first order
+    if (!heard_.small || !m.z->depends(residual, m.qddot)) return false;  // energies have no part of first order
     for (const BaseState& base : bases()) {
         std::vector<ex> parts;
         for (const ex& value : special)
@@ -261,22 +249,6 @@ bool Marker::follows_with(const ex& residual, const GiNaC::exmap& values) {
         if (parts.size() == special.size() && follow(parts, false)) return true;
     }
     return false;
-}
-
-/// Whether all values are numbers other than zero, which hold for the page.
-bool Marker::has_data_alone() const {
-    return std::all_of(special_values_.begin(), special_values_.end(), [](const auto& item) {
-        return GiNaC::is_a<GiNaC::numeric>(item.second) && !item.second.is_zero();
-    });
-}
-
-/// Whether the values were stated for this line: in its sentence, or by the line just before it, with words that
-/// only go on between them. Numbers that were given, k = 40 N/m, hold for the page.
-bool Marker::is_case_fresh() const {
-    constexpr std::size_t longest = 24;  // "and", "or, for the second,"
-    const bool goes_on = statement_->words.size() < longest && !ends_sentence(statement_->words) &&
-                         !begins_sentence(statement_->words);
-    return has_data_alone() || lines_of_case_ == 0 || (lines_of_case_ < 3 && goes_on);
 }
 
 /// "c = 0, m1 = m2".
@@ -293,7 +265,7 @@ std::string Marker::told_values(const GiNaC::exmap& values) const {
 
 /// Right for these values; not judged where a sentence has ended since they were stated.
 void Marker::settle_in_special_case(MarkedLine& line) {
-    const bool is_over = is_case_settled_ || !is_case_fresh();
+    const bool is_over = special_.is_over(statement_->words);
     const bool is_of_other_part =
         statement_->words.find("**") != std::string::npos || statement_->words.find('#') != std::string::npos;
     const bool leaves_out = std::any_of(used_values_.begin(), used_values_.end(),

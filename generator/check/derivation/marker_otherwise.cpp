@@ -91,7 +91,7 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
                     [&](const std::string& name) { return !letters_.is_of_scene(name) || letters_.moves(name); }))
         return false;
     const std::string name = left ? sides.left.text : sides.right.text;
-    if (!statement_->displayed) under_condition_ = lines_of_condition;
+    if (!statement_->displayed) heard_.put_under_condition();
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value of {}; lines are judged for all values", name);
     return true;
@@ -141,7 +141,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
         return is_constant || (inner.kind == Kind::letter && inner.dots <= most_dots);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
-    if (speaks_of_nearness(statement_->words)) speaks_of_small_ = true;  // "near θ = 0 it gives"
+    if (speaks_of_nearness(statement_->words)) heard_.small = true;  // "near θ = 0 it gives"
     const Mechanism& m = system_.mechanism();
     const auto moves = [&](const ClaimText& side) {
         return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) {
@@ -154,7 +154,7 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) {
     if (!is_aside() && !moves(sides.left) && !moves(sides.right)) return false;
     if (is_aside() || speaks_of_special_case(statement_->words) || ends_at_place(statement_->words) ||
         sets_value(statement_->words))
-        under_condition_ = lines_of_condition;
+        heard_.put_under_condition();
     note_place(*sides.lhs, *sides.rhs);
     line.status = LineStatus::not_about_scene;
     line.reason = say("it describes a state; lines are judged for all motions");
@@ -333,7 +333,7 @@ bool Marker::is_constant_of_potential(MarkedLine& line, const Sides& sides, cons
     const bool is_constant = std::all_of(
         slopes.begin(), slopes.end(), [&](const ex& slope) { return rows.is_identity(rows.row(slope)) == true; });
     const std::vector<BaseState> near = bases();
-    if (!is_constant && speaks_of_small_ && std::any_of(near.begin(), near.end(), [&](const BaseState& base) {
+    if (!is_constant && heard_.small && std::any_of(near.begin(), near.end(), [&](const BaseState& base) {
             return is_small(value, base, 2, true, system_);
         })) {
         line.status = LineStatus::right_near;

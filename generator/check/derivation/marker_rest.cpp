@@ -60,11 +60,12 @@ Found Marker::found_at_rest(const std::function<Found(RestStates&)>& ask, bool m
     bool is_nowhere = false, is_elsewhere = false, is_trivial = false;
     is_of_case_ = false;
     const GiNaC::exmap none;
+    std::vector<const GiNaC::exmap*> cases = special_.cases();
+    cases.insert(cases.begin(), &none);
     for (const bool steady : {false, true})
-        for (const GiNaC::exmap* special : {&none, &std::as_const(special_values_), &std::as_const(case_)}) {
+        for (const GiNaC::exmap* special : cases) {
             const bool of_case = special != &none;
-            if ((steady && !may_be_steady) || (of_case && special->empty())) continue;
-            if (special == &case_ && case_.size() == special_values_.size()) continue;
+            if (steady && !may_be_steady) continue;
             Found found = Found::unknown;
             try {
                 found = ask(states_of_rest(steady, *special));
@@ -106,7 +107,7 @@ bool Marker::is_condition_on_potential(MarkedLine& line, const Math& lhs, const 
     if (found != Found::everywhere && found != Found::on_branch && found != Found::trivially) return false;
     line.status = LineStatus::right;
     line.reason = found == Found::trivially ? say("of states of rest found in numbers") : std::move(reason);
-    is_rest_assumed_ = true;
+    heard_.assumed_rest = true;
     return true;
 }
 
@@ -122,8 +123,8 @@ bool Marker::is_at_rest(MarkedLine& line, const ex& residual, const RestStates::
         reason = say("all of its terms vanish at the states of rest that were found, which says nothing of them");
     else if (found != Found::everywhere && found != Found::on_branch)
         return false;
-    const bool is_open =
-        found == Found::elsewhere || found == Found::trivially || (is_of_case_ && !is_case_fresh());
+    const bool is_open = found == Found::elsewhere || found == Found::trivially ||
+                         (is_of_case_ && !special_.is_fresh(statement_->words));
     line.status = is_open ? LineStatus::undecided : LineStatus::right;
     line.reason = std::move(reason);
     notes_.back().claim = {};
@@ -198,8 +199,8 @@ bool Marker::says_state(const std::map<Letter, int>& all) const {
     const bool is_of_turn = std::any_of(all.begin(), all.end(), [&](const auto& item) {
         return state_letters_.contains(item.first) && of_motion.contains(item.first.index);
     });
-    return !from_rest_ && !is_of_turn && relation_ != Relation::approximately &&
-           (says_rest() || names_state(all) || steady_lines_ > 0);
+    return !heard_.start_from_rest && !is_of_turn && relation_ != Relation::approximately &&
+           (says_rest() || names_state(all) || heard_.steady_lines > 0);
 }
 
 /// A line with θ_0, the value of θ at one state: right of states of rest, near them, or of the motion that starts
@@ -222,7 +223,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     const bool is_named = names_state(all), is_said = says_state(all);
     const bool is_case = speaks_of_special_case(statement_->words);
     if (!statement_->displayed && is_case) {  // "if ω = Ω", "Resonance ω_1 = 2 ω_2"
-        under_condition_ = lines_of_condition;
+        heard_.put_under_condition();
         return false;
     }
     const Lone lone = lone_letter(lhs);
@@ -231,7 +232,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
     if (lone.letter != nullptr && lone.letter->letter.base == "omega" &&
         !state_letters_.contains(lone.letter->letter) &&
         !letters_.is_of_scene(letters_.name_of(lone.letter->letter).value_or("")) &&
-        (speaks_of_frequency_ || speaks_of_small_)) {  // ω² = g cos θ_0/l
+        (heard_.frequency || heard_.small)) {  // ω² = g cos θ_0/l
         const std::string text = claim_text(rhs, as_written()).text;
         return is_frequency_at_rest(line, *lone.letter, rhs, lone.power,
                                     lone.power == 2 ? text : "(" + text + ")^2");
@@ -251,7 +252,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
                                   .names_place = names_coordinate(lhs) || names_coordinate(rhs),
                                   .of_number = is_number(lhs) || is_number(rhs)};
     line.claim = sides.left.text + " = " + sides.right.text;
-    const bool is_of_start = from_rest_ && !is_named && !about.names_place;  // θ_0 of the release
+    const bool is_of_start = heard_.start_from_rest && !is_named && !about.names_place;  // θ_0 of the release
     RestStates::About there = about;  // a line that names the place may name another one than those above
     if (!about.names_place) there.relations = rest_relations_;
     if (!is_of_start && has_steady_rates_alone(residual, lhs, rhs) && is_at_rest(line, residual, there, true)) {
@@ -281,7 +282,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
 bool Marker::is_refuted_at_state(MarkedLine& line, const ex& residual, const RestStates::About& there,
                                  bool is_of_motion) {
     const bool is_surely_meant =
-        system_.mechanism().inputs.empty() && !is_state_wrong_ && (!is_of_motion || speaks_of_small_);
+        system_.mechanism().inputs.empty() && !is_state_wrong_ && (!is_of_motion || heard_.small);
     if (!is_surely_meant || line.status == LineStatus::not_about_scene) return false;
     std::string reason;
     const Found found = found_at_rest(
@@ -330,10 +331,10 @@ bool Marker::is_near_state(MarkedLine& line, const ex& residual, const RestState
 
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
-    if ((speaks_of_roots_ || says_rest()) && is_root(line, sides)) return true;
+    if ((heard_.roots || says_rest()) && is_root(line, sides)) return true;
     const bool is_of_motion = holds_rates(*sides.lhs) || holds_rates(*sides.rhs);
     if (says_rest() && !is_of_motion && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
-    if (!speaks_of_rest_ && !statement_->displayed) return false;
+    if (!heard_.rest && !statement_->displayed) return false;
     if (says_rest() &&
         (is_angle_of_rest(line, *sides.lhs, sides.right) || is_angle_of_rest(line, *sides.rhs, sides.left)))
         return true;
@@ -356,8 +357,7 @@ bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
             if (q == name) expression = parsed(value);
         if (CheckedClaim other = checked(place); other.verdict == Verdict::proved) found = std::move(other);
     }
-    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_))
-        return false;
+    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !heard_.rest)) return false;
     if (found.verdict != Verdict::proved && holds_at_some_rest(line, sides)) return true;
     line.checked = found;
     notes_.back().claim = {};
@@ -427,11 +427,11 @@ bool Marker::holds_rates(const Math& math) const {
 
 /// "In equilibrium. We find": rest is spoken of here, or was a line before.
 bool Marker::says_rest() const {
-    return speaks_of_rest_ || is_rest_assumed_;
+    return heard_.rest || heard_.assumed_rest;
 }
 
 bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
-    if (at_rest_of_rates_) {
+    if (heard_.no_accelerations) {
         const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
         MotionRows& rows = system_.rows();
         if (rows.is_identity(rows.row(system_.without_accelerations(residual))) == true) {

@@ -58,12 +58,12 @@ bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Ma
     const RestStates::About about{.places = has_letter ? places_ : GiNaC::exmap(),
                                   .relations = has_letter ? rest_relations_ : std::vector<ex>()};
     const Found found = found_at_rest([&](RestStates& states) { return states.is_frequency(value, about); },
-                                      has_letter || steady_lines_ > 0 || !places_.empty(), reason);
+                                      has_letter || heard_.steady_lines > 0 || !places_.empty(), reason);
     const bool holds = found == Found::everywhere || found == Found::on_branch;
     if (!holds && has_letter && (is_state_wrong_ || rest_letters_.empty())) return false;
-    if (!holds && (found != Found::nowhere || !(speaks_of_frequency_ || speaks_of_period_))) return false;
+    if (!holds && (found != Found::nowhere || !(heard_.frequency || heard_.period))) return false;
     if (!letters_.name_of(letter.letter)) define(line, letter, rhs, power);
-    const bool is_named = holds && !near_ && own_bases_.empty() && names_state_or_mode(said_);
+    const bool is_named = holds && !near_ && own_bases_.empty() && names_state_or_mode(heard_.around);
     line.follows_from = holds ? std::nullopt : own_.explains_frequency(value);
     line.status = is_named            ? LineStatus::undecided
                   : holds             ? LineStatus::right_near
@@ -109,10 +109,10 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     const std::string& base = letter.letter.base;
     static const std::set<std::string> critical{"c", "cr", "crit", "krit", "k", "star"};
     if (critical.contains(letter.letter.index)) return false;  // Ω_c, beyond which there are other states
-    const bool of_period = (base == "T" || base == "tau" || base == "P") && speaks_of_period_;
-    const bool of_turns = (base == "f" || base == "nu") && speaks_of_frequency_;
+    const bool of_period = (base == "T" || base == "tau" || base == "P") && heard_.period;
+    const bool of_turns = (base == "f" || base == "nu") && heard_.frequency;
     const bool of_angle = base == "omega" || base == "Omega" || base == "lambda" || base == "w";
-    if (!of_period && !of_turns && !(of_angle && (speaks_of_frequency_ || speaks_of_small_))) return false;
+    if (!of_period && !of_turns && !(of_angle && (heard_.frequency || heard_.small))) return false;
     const ClaimText text = claim_text(rhs, as_written());
     std::string omega = power == 2 ? text.text : "(" + text.text + ")^2";
     if (of_period) omega = "4*pi^2/(" + omega + ")";
@@ -136,7 +136,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
             known = false;  // where the inertia matrix is singular any value is one
             continue;
         }
-        if (!near_ && own_bases_.empty() && names_state_or_mode(said_)) {
+        if (!near_ && own_bases_.empty() && names_state_or_mode(heard_.around)) {
             define_frequency(line, letter, rhs, power);
             line.reason =
                 say("it is a frequency about {}; whether of the state or mode that the words name is not judged",
@@ -150,13 +150,12 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     }
     if (line.status != LineStatus::right_near && is_frequency_at_rest(line, letter, rhs, power, omega))
         return true;
-    if (!known && (speaks_of_frequency_ || speaks_of_period_)) {
+    if (!known && (heard_.frequency || heard_.period)) {
         define_frequency(line, letter, rhs, power);
         line.reason = say("no state of rest is known about which it is a frequency");
         return true;
     }
-    if (!known || (line.status != LineStatus::right_near && !speaks_of_frequency_ && !speaks_of_period_))
-        return false;
+    if (!known || (line.status != LineStatus::right_near && !heard_.frequency && !heard_.period)) return false;
     if (line.status != LineStatus::right_near) {
         line.follows_from = own_.explains_frequency(truth_.value(omega));
         line.status = line.follows_from ? LineStatus::follows : LineStatus::mistake;
@@ -220,14 +219,14 @@ bool Marker::states_second_order(const Sides& sides, const ex& residual, const B
 
 /// Whether the author deviates from a state at which the system does not rest, such as a steady motion.
 bool Marker::deviates_from_motion() const {
-    return speaks_of_small_ && !own_bases_.empty() &&
+    return heard_.small && !own_bases_.empty() &&
            std::none_of(own_bases_.begin(), own_bases_.end(),
                         [&](const BaseState& base) { return may_rest(base, system_); });
 }
 
 /// Whether it holds near the states of rest in numbers, or near those from which the author deviates.
 bool Marker::holds_near_some_rest(MarkedLine& line, const ex& residual) {
-    if (!speaks_of_small_ || displacements_ != nullptr) return false;
+    if (!heard_.small || displacements_ != nullptr) return false;
     MotionRows& rows = system_.rows();
     const Mechanism& m = system_.mechanism();
     for (const GiNaC::symbol& q : m.q) {  // l φ' + x' φ = 0 of a small φ, whatever x' is
@@ -247,7 +246,7 @@ bool Marker::holds_near_some_rest(MarkedLine& line, const ex& residual) {
 }
 
 bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
-    if (!speaks_of_small_) return false;
+    if (!heard_.small) return false;
     const auto speaks_of = [&](MechanicalQuantity quantity) {
         const std::string name = letters_.name_of(quantity);
         return sides.left.names.contains(name) || sides.right.names.contains(name);
@@ -331,7 +330,7 @@ bool Marker::is_frequency_equation(MarkedLine& line, const Math& lhs, const Math
     const Found found = found_at_rest(
         [&](RestStates& states) { return states.is_characteristic(coefficients, {}); }, true, reason);
     const bool holds = found == Found::everywhere || found == Found::on_branch;
-    const bool is_said = speaks_of_frequency_ || speaks_of_small_ || frequency_letters_.contains(*letter);
+    const bool is_said = heard_.frequency || heard_.small || frequency_letters_.contains(*letter);
     if (!holds && (found != Found::nowhere || !is_said)) return false;
     if (holds) frequency_letters_.insert(*letter);
     line.status = holds ? LineStatus::right : LineStatus::mistake;

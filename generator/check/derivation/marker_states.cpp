@@ -41,25 +41,11 @@ bool are_rates_at_rest(const Math& lhs, const Math& rhs) {
 
 }  // namespace
 
-/// "In steady motion", "if the wedge is held": what is said then holds under a condition, until the sentence ends.
-void Marker::hear_conditions(const std::string& words) {
-    if (under_condition_ > 0 && !goes_on_) --under_condition_;
-    if (ends_sentence(words)) under_condition_ = 0;
-    hear_steady_motion(words);
-    hear_approximation(words);
-    if (is_limit(written_, *statement_) || speaks_of_special_motion(words) || states_condition(words) ||
-        is_conditional(words))
-        under_condition_ = lines_of_condition;
-    speaks_of_impact_ = speaks_of_impact_ || alembert::speaks_of_impact(said_);
-    mentions_impact_ = mentions_impact_ || mentions_impact(said_);
-    from_rest_ = from_rest_ || speaks_of_start_from_rest(words);
-}
-
 /// "Without damping, c = 0": values that the words give.
 void Marker::hear_special_values(const std::string& words) {
     const auto take = [&](const ex& parameter, const ex& value) {
         set_special_value(parameter, value);
-        is_case_settled_ = false;
+        special_.open();
     };
     if (neglects_resistance(words))
         for (const auto& [parameter, none] : system_.without_resistance()) take(parameter, none);
@@ -152,13 +138,14 @@ bool Marker::states_special_case(const Math& lhs, const Math& rhs, const std::ma
 /// "Set α' = 0", "in steady rotation α' = α'' = 0", or the whole chain of rates that is set to zero.
 bool Marker::assumes_rest() const {
     const bool is_chain = statement_->sides.size() > 2 && statement_->sides.back()->kind == Kind::number;
-    return is_chain || is_rest_assumed_ || says_rest() || sets_value(statement_->words) ||
+    return is_chain || heard_.assumed_rest || says_rest() || sets_value(statement_->words) ||
            speaks_of_special_motion(statement_->words) || begins_condition_of_state(statement_->words);
 }
 
 /// "Let θ = α and φ' = Ω be constant": a letter for the value of a coordinate or of its rate in a steady motion.
 bool Marker::is_steady_value(const Math& side, const Math& letter) {
-    const bool is_said = steady_lines_ > 0 || under_condition_ > 0 || speaks_of_constant_value(said_);
+    const bool is_said =
+        heard_.steady_lines > 0 || heard_.condition_lines > 0 || speaks_of_constant_value(heard_.around);
     if (!is_said || side.kind != Kind::letter || side.dots > 1 || letter.kind != Kind::letter || letter.dots > 0)
         return false;
     const auto name = letters_.name_of(side.letter);
@@ -192,10 +179,10 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
         return side.kind == Kind::letter && is_input(letters_.name_of(side.letter).value_or(""));
     };
     if (are_rates_at_rest(lhs, rhs) && !is_of_input(lhs) && !is_of_input(rhs) && assumes_rest()) {
-        is_rest_assumed_ = true;
+        heard_.assumed_rest = true;
         return tell(say("a state of rest"));
     }
-    if (conditioned_behind_)
+    if (heard_.condition_behind)
         return tell(say("the words state a condition for it; lines are judged for all motions"));
     if (denies(statement_->words)) return tell(say("the words say that it does not hold"));
     if (speaks_of_numbered_equations(written_.text.substr(statement_->offset, statement_->length)))
@@ -252,7 +239,7 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (statement_->displayed || !is_zero(rhs) || !name) return false;
     if (*name == letters_.name_of(MechanicalQuantity::potential))
         return tell(say("the zero of the potential, which is free"));
-    if (speaks_of_rest_ && lhs.dots > 0 && letters_.moves(*name)) return tell(say("a state of rest"));
+    if (heard_.rest && lhs.dots > 0 && letters_.moves(*name)) return tell(say("a state of rest"));
     return false;
 }
 
@@ -265,16 +252,16 @@ bool Marker::is_kept(const Sides& sides) {
 
 /// θ' = 3 S / (7 m l) of the rates just after the scene's impulses.
 bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
-    if (mentions_impact_ && holds_at_pose(sides)) {
+    if (heard_.mentioned_impact && holds_at_pose(sides)) {
         line.status = LineStatus::right;
         line.reason = say("at the pose of the impact");
         notes_.back().claim = {};
         return true;
     }
-    const bool is_energy_given = mentions_impact_ &&
+    const bool is_energy_given = heard_.mentioned_impact &&
                                  sides.left.text == letters_.name_of(MechanicalQuantity::kinetic) &&
                                  is_of_parameters(truth_.value(sides.right.text));  // T = S² b²/(2 I)
-    if (!(speaks_of_impact_ || is_energy_given || speaks_of_conservation(said_)) ||
+    if (!(heard_.impact || is_energy_given || speaks_of_conservation(heard_.around)) ||
         system_.scene().impulses.empty() || (has_quantities(sides) && !is_energy_given) ||
         is_accelerated(*sides.lhs) || is_accelerated(*sides.rhs))
         return false;
@@ -287,7 +274,7 @@ bool Marker::holds_after_impact(MarkedLine& line, const Sides& sides) {
         return false;
     }
     if (is_energy_given && verdict != Verdict::proved) return false;
-    if (speaks_of_conservation(said_) && (verdict != Verdict::proved || !is_kept(sides))) return false;
+    if (speaks_of_conservation(heard_.around) && (verdict != Verdict::proved || !is_kept(sides))) return false;
     notes_.back().claim = claim;
     line.status = verdict == Verdict::proved    ? LineStatus::right
                   : verdict == Verdict::refuted ? LineStatus::mistake

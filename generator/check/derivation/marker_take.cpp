@@ -33,8 +33,8 @@ void Marker::take_in(std::size_t s, std::size_t k) {
         if (is_false(line.status) && !m.z->depends(own.residual, m.qddot))
             own_.add_relation(own.residual, lines.size() - 1);
         own_.add_equation(std::move(own), lines.size() - 1, is_false(line.status),
-                          line.status == LineStatus::right_near || speaks_of_small_);
-    } catch (const NoMeaning&) {  // a side that has no meaning of its own states nothing
+                          line.status == LineStatus::right_near || heard_.small);
+    } catch (const NoMeaning&) {          // a side that has no meaning of its own states nothing
     } catch (const std::domain_error&) {  // nor does one that is divided by zero
     } catch (const std::overflow_error&) {
     }
@@ -84,7 +84,7 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     if (is_name) {
         const ex before = own_.value(name.text);  // J θ'' = b T has determined it, T = m (g + b θ'') states it
         if (differs && is_false(status) && system_.mechanism().z->depends(before, system_.mechanism().qddot))
-            own_.add_equation(rows.row(before - stated), lines.size() - 1, true, speaks_of_small_);
+            own_.add_equation(rows.row(before - stated), lines.size() - 1, true, heard_.small);
         own_.state(name.text, stated, wrong);
         if (what.kind == Kind::letter && what.letter.base == "H")
             hold_momenta(name.text, claim_text(value, as_written()), text, wrong);

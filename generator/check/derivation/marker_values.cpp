@@ -191,7 +191,7 @@ bool Marker::judge_calculation(MarkedLine& line, const Math& formula, double wri
         const std::optional<double> exact = in_numbers(truth, values);
         return exact && std::abs(*exact - written) <= rounding_on_the_way * std::abs(*exact);
     };
-    const bool holds = fits(special_values_) || fits(own_values());
+    const bool holds = fits(special_.all()) || fits(own_values());
     line.status = holds ? LineStatus::right : LineStatus::not_about_scene;
     line.reason =
         holds ? say("to the digits that are written") : say("a value in numbers; lines are judged for all values");
@@ -235,9 +235,9 @@ bool Marker::judge_value(MarkedLine& line, const Math& lhs, const Math& rhs, Rel
         return std::abs(*exact - written) <=
                std::max(in_last_digit * digit, rounding_on_the_way * std::abs(*exact));
     };
-    const std::optional<bool> stated = fits(special_values_);
+    const std::optional<bool> stated = fits(special_.all());
     if (!stated && fits(own_values()) != true) return true;
-    const std::optional<double> exact = in_numbers(truth, special_values_);
+    const std::optional<double> exact = in_numbers(truth, special_.all());
     const bool is_slip =
         stated == false && is_slip_of_number(written, *exact, std::max(in_last_digit * digit, 0.0));
     line.status = stated != false ? LineStatus::right : is_slip ? LineStatus::mistake : LineStatus::undecided;

@@ -260,7 +260,7 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
     }
     const Math& work = *lhs.args[0];  // δW_g
     const bool is_named = work.kind == Kind::letter && !work.letter.index.empty();
-    if (wrong && (is_named || names_part_of_forces(said_))) {
+    if (wrong && (is_named || names_part_of_forces(heard_.around))) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("the words speak of a part of the forces");
         return;

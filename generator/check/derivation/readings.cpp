@@ -69,10 +69,11 @@ std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
 
 /// Whether the text says of the letter what it is.
 bool states(const Written& written, const Letter& letter) {
-    return std::any_of(written.statements.begin(), written.statements.end(), [&](const WrittenStatement& statement) {
-        const Letter* const own = statement.sides.size() > 1 ? alone_in(*statement.sides[0]) : nullptr;
-        return own != nullptr && *own == letter;
-    });
+    return std::any_of(
+        written.statements.begin(), written.statements.end(), [&](const WrittenStatement& statement) {
+            const Letter* const own = statement.sides.size() > 1 ? alone_in(*statement.sides[0]) : nullptr;
+            return own != nullptr && *own == letter;
+        });
 }
 
 /// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.

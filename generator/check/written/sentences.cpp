@@ -2,6 +2,7 @@
 #include "check/written/sentences.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace alembert {
 
@@ -126,6 +127,13 @@ bool ends_with_word(std::string_view words, std::initializer_list<std::string_vi
         const bool is_chinese =
             static_cast<unsigned char>(word.front()) >= 0x80 && !begins_wide_letter(word.front());
         return begin == 0 || is_chinese || sentence[begin - 1] == ' ' || sentence[begin - 1] == '(';
+    });
+}
+
+bool holds_letters(std::string_view words) {
+    return std::any_of(words.begin(), words.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x80 || std::isalpha(byte) != 0;
     });
 }
 

@@ -31,6 +31,9 @@ std::string trimmed_sentence(std::string_view words);
 /// Whether the trimmed sentence ends with one of these words or phrases.
 bool ends_with_word(std::string_view words, std::initializer_list<std::string_view> list);
 
+/// Whether they are more than signs between formulas.
+bool holds_letters(std::string_view words);
+
 /// Whether a sentence ends in the words.
 bool ends_sentence(std::string_view words);
 

@@ -76,8 +76,8 @@ struct BeyondLimit {
 /// What is shared by all formulas of one document.
 struct TokenContext {
     std::map<std::string, WrittenMacro, std::less<>> macros;
-    std::size_t tokens = 0;    ///< so far
-    std::size_t expanded = 0;  ///< bytes that macros became
+    std::size_t tokens = 0;         ///< so far
+    std::size_t expanded = 0;       ///< bytes that macros became
     bool has_virtual_work = false;  ///< whether plain text has delta_y for δy
 };
 
