@@ -40,6 +40,10 @@ bool states_general_law(const Math& side, const Letters& letters, bool displayed
     if (!displayed && has_sum_sign(side)) return true;
     std::map<Letter, int> all;
     collect_letters(side, all);
+    const bool is_of_scene = std::any_of(all.begin(), all.end(), [&](const auto& item) {
+        return letters.moves(letters.name_of(item.first).value_or(""));
+    });
+    if (is_of_scene && !all.contains(Letter{.base = "Q"})) all.erase(Letter{.base = "q"});  // a charge beside r, θ
     return std::any_of(all.begin(), all.end(),
                        [&](const auto& item) { return is_general(item.first, item.second, letters, displayed); });
 }

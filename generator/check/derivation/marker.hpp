@@ -100,6 +100,8 @@ private:
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs);
     void judge_work(MarkedLine& line, const Math& lhs, const Math& rhs);
+    std::vector<std::vector<GiNaC::ex>> forces_of_loads() const;
+    bool is_sum_of(const std::vector<std::vector<GiNaC::ex>>& parts, const std::vector<GiNaC::ex>& forces);
     bool is_work_of_part(const std::vector<GiNaC::ex>& stated);
     void judge_displacements(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool bind_to_force(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
@@ -215,6 +217,7 @@ private:
     bool states_relation_of_constants(const Math& lhs, const Math& rhs);
     const Letter* place_of_rate(const Math& math) const;
     std::optional<std::string> excuse(const MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool keeps_to_time(const Math& lhs, const Math& rhs);
     bool is_of_one_motion(const Math& lhs, const Math& rhs);
     bool is_written_rate(const Math& side) const;
     bool is_wrong_derivative(MarkedLine& line, const Sides& sides);
@@ -233,6 +236,8 @@ private:
     bool does_not_change(const GiNaC::ex& expression);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
     bool is_wrong_energy_of_start(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
+    void note_start(const GiNaC::ex& kept);
+    bool follows_from_start(const Math& lhs, const Math& rhs);
     bool keeps_its_start_at(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     bool changes_in_motion(const std::string& name) const;
     bool introduce_ahead(const Letter& letter);
@@ -330,6 +335,7 @@ private:
     bool is_judging_ = false;        ///< whether a line is being judged, and not its words heard
     bool is_taken_there_ = false;    ///< U''(r) for U''(r_0): its coordinates are those of the state
     std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0
+    GiNaC::exmap start_rates_;       ///< x' = ω y of motions with a special start
     GiNaC::exmap start_place_;       ///< φ = π/2 of "released from rest at φ = π/2"
     GiNaC::exmap stated_place_;      ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
     SpecialValues special_;

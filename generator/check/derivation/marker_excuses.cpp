@@ -35,6 +35,13 @@ bool speaks_of_time(const Math& math) {
 
 }  // namespace
 
+/// A coordinate that the scene itself drives: φ = Ω t of a constraint.
+bool Marker::keeps_to_time(const Math& lhs, const Math& rhs) {
+    const Sides sides = sides_of(lhs, rhs);
+    MotionRows& rows = system_.rows();
+    return rows.holds(rows.row(truth_.value(sides.left.text) - truth_.value(sides.right.text))) == true;
+}
+
 /// x = ½ a t², θ = A cos ω t: one motion of a system that does not change with time. Letters such as A, which no
 /// equation gives, speak of that motion from then on.
 bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
@@ -51,13 +58,15 @@ bool Marker::is_of_one_motion(const Math& lhs, const Math& rhs) {
     const auto name = is_value ? letters_.name_of(lhs.letter) : std::nullopt;
     const std::vector<std::string>& coordinates = letters_.coordinates();
     const bool is_own = is_value && is_of_place(lhs);  // u of y = y_s + u
-    if (!name || (!is_own && std::find(coordinates.begin(), coordinates.end(), *name) == coordinates.end()))
-        return false;
+    const bool is_coordinate =
+        name && std::find(coordinates.begin(), coordinates.end(), *name) != coordinates.end();
+    const bool is_particular = is_value && !name && speaks_of_solution(statement_->words);  // r_p
+    if (!is_own && !is_coordinate && !is_particular) return false;
     if (!speaks_of_time(rhs)) return false;
     std::set<Letter> unknown;
     for (const auto& [letter, dots] : all)
         if (!letters_.name_of(letter) && letter != Letter{.base = "t"}) unknown.insert(letter);
-    if (!is_autonomous_ && unknown.empty()) return false;
+    if (!is_autonomous_ && unknown.empty() && (!is_coordinate || keeps_to_time(lhs, rhs))) return false;
     for (const auto& [letter, dots] : all)
         if (quantity_of(letter) && letter.base == "U" && letter.index.empty())
             unknown.insert(letter);  // u = U cos Ω t
@@ -113,7 +122,8 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     const bool is_steady = heard_.steady_lines > 0 && !is_accelerated(lhs) && !is_accelerated(rhs) &&
                            !has_quantities(sides_of(lhs, rhs));
     const bool is_approximate = heard_.approximate_lines > 0 && !has_quantities(sides_of(lhs, rhs));
-    const bool is_conditional = heard_.condition_lines > 0 || is_rest_alone || is_steady || is_approximate;
+    const bool is_of_place = !statement_->displayed && ends_at_place(statement_->words);  // "at the bottom"
+    const bool is_conditional = is_of_place || heard_.condition_lines > 0 || is_rest_alone || is_steady || is_approximate;
     if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
     if (is_own && !statement_->displayed && is_number(rhs) &&
@@ -121,11 +131,13 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
         return say("a value in numbers; lines are judged for all values");  // W = 1 of W = m g l
     if (keeps_its_start(lhs, rhs)) {
         is_of_special_start_ = true;
+        note_start(kept_of(lhs, rhs));
         return say("it keeps its value, and holds for motions that start so");
     }
     const bool may_use_start = is_of_special_start_ && !is_energy && !is_accelerated(lhs) &&
                                !is_accelerated(rhs) && !has_quantities(sides_of(lhs, rhs));
-    if (may_use_start) return say("it may hold for motions that start as the lines above say");
+    if (may_use_start || (!is_energy && follows_from_start(lhs, rhs)))
+        return say("it may hold for motions that start as the lines above say");
     if (!statement_->displayed && states_relation_of_constants(lhs, rhs)) {
         heard_.put_under_condition();
         return say("a condition on parameters; lines are judged for all their values");
@@ -254,6 +266,21 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     MotionRows& rows = system_.rows();
     if (rows.holds(rows.row(residual)) == true) return false;  // it is wrong in another way
     return does_not_change(residual);
+}
+
+/// x' = ω y of such a motion: one of the rates by the others, for the lines that put it into an equation.
+void Marker::note_start(const ex& kept) {
+    const Mechanism& m = system_.mechanism();
+    const std::vector<ex> slopes = m.z->pull_back({{kept, 1}}, m.qdot);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        if (slopes[i].is_zero() || !is_of_parameters(slopes[i])) continue;
+        start_rates_[m.qdot[i]] = m.z->expand(m.qdot[i] - kept / slopes[i]);
+        return;
+    }
+}
+
+bool Marker::follows_from_start(const Math& lhs, const Math& rhs) {
+    return !start_rates_.empty() && displacements_ == nullptr && follows_with(kept_of(lhs, rhs), start_rates_);
 }
 
 /// The same of a start at rest at θ_0, where it holds too: θ'² = 2 g (cos θ − cos θ_0)/l.

@@ -348,6 +348,7 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     if (!holds && is_state && is_word_for_constant(letter.letter.base) && !statement_->displayed) {  // φ = const
         line.status = LineStatus::not_about_scene;
         line.reason = say("it describes a state; lines are judged for all motions");
+        heard_.put_under_condition();
         return true;
     }
     if (!holds && is_word_for_constant(letter.letter.base) && follows_in_special_case(rate.residual)) {

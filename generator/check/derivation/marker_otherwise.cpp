@@ -230,11 +230,11 @@ bool Marker::is_potential_of_all(MarkedLine& line, const Sides& sides) {
     const std::string name = letters_.name_of(MechanicalQuantity::potential);
     if (sides.left.text != name) return false;
     const Mechanism& m = system_.mechanism();
-    MotionRows& rows = system_.rows();
     const std::vector<ex> slopes = m.z->pull_back({{truth_.value(sides.right.text), 1}}, m.q),
-                          all = system_.forces(true);
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (rows.is_identity(rows.row(slopes[i] + all[i])) != true) return false;
+                          all = system_.forces(true), others = system_.forces(false);
+    std::vector<ex> of_loads;  // beside those that the scene's V gives
+    for (std::size_t i = 0; i < all.size(); ++i) of_loads.push_back(others[i] - all[i] - slopes[i]);
+    if (!is_sum_of(forces_of_loads(), of_loads)) return false;
     line.status = LineStatus::right_up_to_constant;
     line.reason = say("with the potential of the loads");
     notes_.back().claim = {};

@@ -185,35 +185,46 @@ void Marker::judge_admissible(MarkedLine& line, const Math& lhs, const Math& rhs
     line.reason = holds ? say("for displacements that the constraints allow") : say("it could not be evaluated");
 }
 
-/// Whether these are the generalized forces of some of the loads: of the weights, of one force.
-bool Marker::is_work_of_part(const std::vector<ex>& stated) {
-    constexpr std::size_t most = 5;
-    const Mechanism& m = system_.mechanism();
-    std::vector<std::vector<ex>> parts;
-    for (const Part& part : m.potential) {
-        parts.push_back(m.z->pull_back({{part.value, 1}}, m.q));
-        for (ex& force : parts.back()) force = -force;
-    }
-    for (const Load& load : m.loads) {
-        Mechanism alone = m;
+/// The generalized forces of each load, without those that have a potential in the scene.
+std::vector<std::vector<ex>> Marker::forces_of_loads() const {
+    std::vector<std::vector<ex>> result;
+    for (const Load& load : system_.mechanism().loads) {
+        Mechanism alone = system_.mechanism();
         alone.loads = {load};
-        const std::vector<ex> of_others = alone.generalized_forces(false);
-        parts.push_back(alone.generalized_forces(true));
-        for (std::size_t i = 0; i < of_others.size(); ++i) parts.back()[i] += of_others[i];
+        const std::vector<ex> of_potential = alone.generalized_forces(false);
+        result.push_back(alone.generalized_forces(true));
+        for (std::size_t i = 0; i < of_potential.size(); ++i) result.back()[i] += of_potential[i];
     }
+    return result;
+}
+
+/// Whether the forces are those of some of the parts.
+bool Marker::is_sum_of(const std::vector<std::vector<ex>>& parts, const std::vector<ex>& forces) {
+    constexpr std::size_t most = 5;
     if (parts.size() > most) return false;
     MotionRows& rows = system_.rows();
     for (unsigned set = 1; set < 1U << parts.size(); ++set) {
         bool is_this = true;
-        for (std::size_t i = 0; is_this && i < stated.size(); ++i) {
-            ex rest = stated[i];
+        for (std::size_t i = 0; is_this && i < forces.size(); ++i) {
+            ex rest = forces[i];
             for (std::size_t k = 0; k < parts.size(); ++k)
                 if ((set >> k & 1U) != 0) rest -= parts[k][i];
-            is_this = rows.is_identity(rows.row(m.z->name(rest))) == true;
+            is_this = rows.is_identity(rows.row(system_.mechanism().z->name(rest))) == true;
         }
         if (is_this) return true;
     }
     return false;
+}
+
+/// Whether these are the generalized forces of some of the loads: of the weights, of one force.
+bool Marker::is_work_of_part(const std::vector<ex>& stated) {
+    const Mechanism& m = system_.mechanism();
+    std::vector<std::vector<ex>> parts = forces_of_loads();
+    for (const Part& part : m.potential) {
+        parts.push_back(m.z->pull_back({{part.value, 1}}, m.q));
+        for (ex& force : parts.back()) force = -force;
+    }
+    return is_sum_of(parts, stated);
 }
 
 /// δW = Σ Q_q δq: one claim for each coordinate.

@@ -76,6 +76,13 @@ bool states(const Written& written, const Letter& letter) {
         });
 }
 
+bool holds(const Written& written, const Letter& letter) {
+    return std::any_of(written.statements.begin(), written.statements.end(), [&](const WrittenStatement& statement) {
+        return std::any_of(statement.sides.begin(), statement.sides.end(),
+                           [&](const MathPtr& side) { return speaks_of(*side, letter); });
+    });
+}
+
 /// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.
 bool calls_coordinate_q(const Letters& letters, const Written& written) {
     const Letter q{.base = "q"};
@@ -127,7 +134,7 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     letters.leave_to_author(*letter);
             }
     for (const auto& [one, other] : {std::pair("T", "K"), std::pair("V", "U")})
-        if (states(written, {.base = one}) && !states(written, {.base = other}))
+        if (states(written, {.base = one}) && !states(written, {.base = other}) && holds(written, {.base = other}))
             letters.leave_to_author({.base = other});  // p_φ = K, where T is the kinetic energy
     return letters;
 }

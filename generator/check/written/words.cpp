@@ -154,6 +154,12 @@ bool names_part_of_forces(std::string_view words) {
         "弾性力による*|摩擦力の仕事*|摩擦力による*|摩擦による*|減衰力の仕事*|減衰力による*");
 }
 
+bool speaks_of_solution(std::string_view words) {
+    return has_phrase(last_sentence(words),
+                      "solution*|lösung*|lösen|solución*|soluzion*|solução|soluções|решени*|rozwiązani*|lösning*|"
+                      "解为*|特解*|通解*|的解*|解は*|特殊解*|一般解*");
+}
+
 bool speaks_of_angular_momentum(std::string_view words) {
     return has_phrase(
         last_sentence(words),

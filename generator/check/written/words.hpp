@@ -89,6 +89,9 @@ bool mentions_special_motion(std::string_view words);
 /// "starts from rest": constants of the motion are zero.
 bool speaks_of_start_from_rest(std::string_view words);
 
+/// "A particular solution is": of one motion.
+bool speaks_of_solution(std::string_view words);
+
 /// "after the impact": what follows holds just after impulses.
 bool speaks_of_impact(std::string_view words);
 

@@ -106,6 +106,22 @@ constexpr std::string_view phrases_of_first_order =
 
 }  // namespace
 
+namespace {
+
+/// "Small θ:", with a letter and no thing behind it.
+bool is_small_alone(const std::string& sentence) {
+    constexpr std::size_t longest = 24;
+    static constexpr std::string_view words[] = {"small",  "kleine",  "kleines", "petit",  "petits", "pequeño",
+                                                 "piccolo", "piccoli", "małe",    "малые",  "малое",  "små"};
+    return sentence.size() < longest &&
+           std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
+               return sentence == word || (sentence.starts_with(std::string(word) + " ") &&
+                                           sentence.find_first_of("$\\θφαψβεxyu", word.size()) != std::string::npos);
+           });
+}
+
+}  // namespace
+
 bool speaks_of_first_order(std::string_view words) {
     const std::string lower = in_lower_case(words);
     for (std::size_t begin = 0; begin < lower.size();) {
@@ -114,6 +130,7 @@ bool speaks_of_first_order(std::string_view words) {
         const bool is_denied = has_phrase(sentence, denials_of_first_order) ||
                                (has_phrase(sentence, "no") && !is_portuguese(sentence));
         if (has_phrase(sentence, phrases_of_first_order) && !is_denied) return true;
+        if (is_small_alone(trimmed_sentence(sentence))) return true;
         begin = end;
     }
     return false;
