@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "algebra/notation/exponent_lattice.hpp"
 #include "algebra/notation/factor.hpp"
 #include "algebra/notation/irreducible.hpp"
 #include "algebra/symbolic/bounded_factor.hpp"
@@ -87,6 +88,41 @@ TEST_CASE("factor: sums with powers like a^3.1416 are their own factorization's 
     Factorizer factorizer;
     REQUIRE(factorizer(square).sums.size() == 1);
     CHECK(factorizer(square).sums[0].second == 2);
+}
+
+TEST_CASE("factor: a polynomial is searched in the fewest variables in which it can be written") {
+    // k²S² − 2 k S w²J + w⁴J² − k²c²w² in k, S, w, J, c: of two products of powers
+    const ExponentLattice lattice({{2, 2, 0, 0, 0}, {1, 1, 2, 1, 0}, {0, 0, 4, 2, 0}, {2, 0, 2, 0, 2}});
+    CHECK(lattice.rank() == 2);
+    for (const auto& row : lattice.reduced())
+        for (const long exponent : row) CHECK(exponent >= 0);
+    const auto whole = lattice.restored(lattice.reduced());
+    CHECK(whole == std::vector<ExponentLattice::Exponents>{
+                       {2, 2, 0, 0, 0}, {1, 1, 2, 1, 0}, {0, 0, 4, 2, 0}, {2, 0, 2, 0, 2}});
+    test::Mechanics m;
+    const ex k = m.parameter("k"), s = m.parameter("S"), w = m.parameter("w"), j = m.parameter("J"),
+             c = m.parameter("c"), d = m.parameter("d");
+    std::mt19937_64 random(11);
+    const ex atoms[] = {k, s, w, j, c, d};
+    const auto monomial = [&] {
+        ex result = GiNaC::numeric(static_cast<long>(random() % 5) + 1);
+        for (const ex& atom : atoms) result *= pow(atom, static_cast<long>(random() % 3));
+        return result;
+    };
+    for (int n = 0; n < 60; ++n) {  // differences of squares
+        const ex a = monomial(), b = monomial(), e = monomial();
+        const ex product = ((a - b) * (a - b) - e * e).expand();
+        if (product.is_zero()) continue;
+        const Polynomial polynomial = fourier(product, m.symbols).value().polynomial();
+        CAPTURE(product);
+        Factorizer factorizer;
+        const Factorization factors = factorizer(polynomial);
+        CHECK(product_of(factors) == polynomial);
+        int parts = 0;
+        for (const auto& [sum, exponent] : factors.sums) parts += exponent;
+        const bool is_in_pieces = ((a - b) * (a - b)).is_equal(e * e) || a.is_equal(b);
+        CHECK((parts >= 2 || is_in_pieces));  // (a − b − e) (a − b + e)
+    }
 }
 
 }  // namespace symbolic_factor

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
 
+#include "algebra/notation/exponent_lattice.hpp"
 #include "algebra/notation/irreducible.hpp"
 
 namespace alembert {
@@ -96,48 +96,87 @@ bool is_sum_of_squares(const Polynomial& polynomial) {
            polynomial.terms()[0].coefficient * polynomial.terms()[1].coefficient > 0;
 }
 
-/// Translates a polynomial to substitute symbols, each of which stands for the smallest power of an atom that
-/// occurs.
+/// Translates a polynomial to GiNaC's, in as few variables as it can be written in.
 class Translation {
 public:
-    explicit Translation(const Occurrences& atoms) {
-        for (const auto& [atom, occurrence] : atoms) {
-            const GiNaC::symbol stand_in;
-            meaning_.emplace(stand_in.gethash(), Factor{atom, occurrence.unit});
-            stand_in_.emplace(atom, std::pair(stand_in, occurrence.unit));
-        }
+    Translation(const Polynomial& polynomial, const Occurrences& atoms)
+        : atoms_(atoms), polynomial_(polynomial), lattice_(exponents(polynomial)) {
+        for (std::size_t k = 0; k < lattice_.rank(); ++k) stand_in_.emplace_back();
     }
 
-    GiNaC::ex to(const Polynomial& polynomial) const {
+    /// Terms times variables times the sum of their degrees.
+    bool is_small() const {
+        long total = 0;
+        for (std::size_t k = 0; k < lattice_.rank(); ++k) {
+            long degree = 0;
+            for (const auto& row : lattice_.reduced()) degree = std::max(degree, row[k]);
+            if (degree > highest_degree) return false;
+            total += degree;
+        }
+        return total * static_cast<long>(lattice_.reduced().size() * lattice_.rank()) <= most_for_ginac;
+    }
+
+    GiNaC::ex whole() const {
+        const std::vector<ExponentLattice::Exponents> rows = lattice_.reduced();
         GiNaC::exvector terms;
-        for (const Term& term : polynomial.terms()) {
-            GiNaC::exvector factors{expression(term.coefficient)};
-            for (const Factor& factor : term.monomial) {
-                const auto& [symbol, unit] = stand_in_.at(factor.atom);
-                factors.push_back(GiNaC::pow(symbol, expression(Rational(factor.exponent / unit))));
-            }
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            GiNaC::exvector factors{expression(polynomial_.terms()[i].coefficient)};
+            for (std::size_t k = 0; k < rows[i].size(); ++k)
+                factors.push_back(GiNaC::pow(stand_in_[k], static_cast<int>(rows[i][k])));
             terms.push_back(GiNaC::mul(factors));
         }
         return GiNaC::add(terms);
     }
 
-    Polynomial from(const GiNaC::ex& e) const {
-        if (GiNaC::is_a<GiNaC::numeric>(e)) return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N());
-        if (GiNaC::is_a<GiNaC::symbol>(e)) {
-            const Factor& factor = meaning_.at(GiNaC::ex_to<GiNaC::symbol>(e).gethash());
-            return Polynomial(factor.atom, factor.exponent);
+    /// A factor of the whole.
+    Polynomial from(const GiNaC::ex& factor) const {
+        const GiNaC::ex sum = factor.expand();
+        std::vector<ExponentLattice::Exponents> rows;
+        std::vector<Rational> coefficients;
+        for (std::size_t i = 0; i < (GiNaC::is_a<GiNaC::add>(sum) ? sum.nops() : 1); ++i) {
+            GiNaC::ex term = GiNaC::is_a<GiNaC::add>(sum) ? sum.op(i) : sum;
+            ExponentLattice::Exponents& row = rows.emplace_back();
+            for (const GiNaC::symbol& symbol : stand_in_) {
+                row.push_back(term.degree(symbol));
+                term = term.coeff(symbol, term.degree(symbol));
+            }
+            coefficients.push_back(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(term).to_cl_N()));
         }
-        if (GiNaC::is_a<GiNaC::power>(e))
-            return power(from(e.op(0)), GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int());
-        Polynomial result = GiNaC::is_a<GiNaC::add>(e) ? Rational(0) : Rational(1);
-        for (std::size_t i = 0; i < e.nops(); ++i)
-            result = GiNaC::is_a<GiNaC::add>(e) ? result + from(e.op(i)) : result * from(e.op(i));
-        return result;
+        std::vector<Term> terms;
+        const std::vector<ExponentLattice::Exponents> whole = lattice_.restored(rows);
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            Polynomial monomial = Rational(1);
+            std::size_t k = 0;
+            for (const auto& [atom, occurrence] : atoms_) {
+                const Rational exponent = occurrence.unit * Rational(whole[i][k++]);
+                if (exponent != 0) monomial = monomial * Polynomial(atom, exponent);
+            }
+            terms.push_back({monomial.terms()[0].monomial, coefficients[i]});
+        }
+        return Polynomial::collect(std::move(terms));
     }
 
 private:
-    std::unordered_map<unsigned, Factor> meaning_;
-    std::map<Atom, std::pair<GiNaC::symbol, Rational>, AtomLess> stand_in_;
+    std::vector<ExponentLattice::Exponents> exponents(const Polynomial& polynomial) const {
+        std::vector<ExponentLattice::Exponents> result;
+        for (const Term& term : polynomial.terms()) {
+            ExponentLattice::Exponents& row = result.emplace_back();
+            for (const auto& [atom, occurrence] : atoms_) {
+                const auto here =
+                    std::find_if(term.monomial.begin(), term.monomial.end(),
+                                 [&](const Factor& factor) { return compare(factor.atom, atom) == 0; });
+                row.push_back(here == term.monomial.end()
+                                  ? 0
+                                  : cln::cl_I_to_long(cln::numerator(here->exponent / occurrence.unit)));
+            }
+        }
+        return result;
+    }
+
+    const Occurrences& atoms_;
+    const Polynomial& polynomial_;
+    ExponentLattice lattice_;
+    std::vector<GiNaC::symbol> stand_in_;
 };
 
 Polynomial with_positive_lead(const Polynomial& polynomial) {
@@ -148,8 +187,12 @@ Polynomial with_positive_lead(const Polynomial& polynomial) {
 /// The factors of a primitive polynomial with positive leading coefficient and without a monomial factor.
 Factorization factors_by_ginac(const Polynomial& polynomial, const Occurrences& atoms) {
     Factorization result;
-    const Translation translation(atoms);
-    const GiNaC::ex factored = GiNaC::factor(translation.to(polynomial));
+    const Translation translation(polynomial, atoms);
+    if (!translation.is_small()) {
+        result.sums.emplace_back(polynomial, 1);
+        return result;
+    }
+    const GiNaC::ex factored = GiNaC::factor(translation.whole());
     const auto add = [&](const GiNaC::ex& e) {
         const bool is_power = GiNaC::is_a<GiNaC::power>(e);
         const Polynomial base = translation.from(is_power ? e.op(0) : e);

@@ -184,7 +184,11 @@ private:
     void follows_as_constant(MarkedLine& line, const ClaimText& text);
     bool is_foreign_inertia(const Letter& letter, const GiNaC::ex& value);
     bool is_an_inertia(const GiNaC::ex& value);
-    std::vector<GiNaC::ex> energies_with_inertia(const GiNaC::ex& value);
+    struct WrongInertia {
+        GiNaC::ex energy;
+        std::string meant;
+    };
+    std::vector<WrongInertia> energies_with_inertia(const GiNaC::ex& value);
     bool follows_from_inertia(MarkedLine& line, const Sides& sides);
     bool is_from_inertia(MarkedLine& line, const std::function<std::optional<std::size_t>()>& from);
     bool is_same_at_rest(const GiNaC::ex& residual, const GiNaC::ex& other) const;

@@ -123,7 +123,8 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
                            !has_quantities(sides_of(lhs, rhs));
     const bool is_approximate = heard_.approximate_lines > 0 && !has_quantities(sides_of(lhs, rhs));
     const bool is_of_place = !statement_->displayed && ends_at_place(statement_->words);  // "at the bottom"
-    const bool is_conditional = is_of_place || heard_.condition_lines > 0 || is_rest_alone || is_steady || is_approximate;
+    const bool is_conditional =
+        is_of_place || heard_.condition_lines > 0 || is_rest_alone || is_steady || is_approximate;
     if (!is_energy && is_conditional)
         return say("the words state a condition for it; lines are judged for all motions");
     if (is_own && !statement_->displayed && is_number(rhs) &&

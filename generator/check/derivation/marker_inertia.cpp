@@ -14,7 +14,7 @@ namespace {
 
 /// A body that turns in a plane, and its share of the kinetic energy.
 struct Turning {
-    std::string name;
+    std::string written;         ///< its moment of inertia, as the scene has it
     ex inertia;                  ///< about its mass centre
     ex moving = 0, turning = 0;  ///< the two parts of its kinetic energy
 };
@@ -24,7 +24,7 @@ std::vector<Turning> turning_bodies(const Scene& scene, const Mechanism& m,
     std::vector<Turning> result;
     for (const Body& body : scene.bodies) {
         if (!body.inertia || !body.inertia->planar) continue;
-        Turning one{.name = body.name.text, .inertia = value(*body.inertia->planar)};
+        Turning one{.written = body.inertia->planar->text, .inertia = value(*body.inertia->planar)};
         for (const Part& part : m.kinetic) {
             if (part.origin.name != body.name.text) continue;
             (part.origin.kind == Origin::Kind::rotation ? one.turning : one.moving) += part.value;
@@ -42,7 +42,6 @@ bool Marker::is_an_inertia(const ex& value) {
     const auto is_it = [&](const ex& energy, const ex& square_of_rate) {
         return is_identically_zero(m.z->name(2 * energy - value * square_of_rate), m);
     };
-    ex moving, turning;
     for (const Turning& body :
          turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
         const ex square = 2 * body.turning / body.inertia;
@@ -60,18 +59,18 @@ bool Marker::is_foreign_inertia(const Letter& letter, const ex& value) {
     return is_letter && !system_.scene().bodies.empty() && is_of_parameters(value) && !is_an_inertia(value);
 }
 
-/// The kinetic energies that a wrong moment of inertia would give.
-std::vector<ex> Marker::energies_with_inertia(const ex& value) {
+/// The kinetic energies that a wrong moment of inertia would give, and what it is taken for in the scene.
+std::vector<Marker::WrongInertia> Marker::energies_with_inertia(const ex& value) {
     const Mechanism& m = system_.mechanism();
     const ex T = m.kinetic_energy();
-    std::vector<ex> result;
+    std::vector<WrongInertia> result;
     for (const Turning& body :
          turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); })) {
         const ex turning = body.turning * value / body.inertia;
-        result.push_back(m.z->name(T - body.turning + turning));
-        result.push_back(m.z->name(T - body.turning - body.moving + turning));  // about a fixed point
+        result.push_back({m.z->name(T - body.turning + turning), body.written});
+        result.push_back({m.z->name(T - body.turning - body.moving + turning), ""});  // about a fixed point
     }
-    if (m.size() == 1) result.push_back(m.z->name(value * GiNaC::pow(m.qdot[0], 2) / 2));
+    if (m.size() == 1) result.push_back({m.z->name(value * GiNaC::pow(m.qdot[0], 2) / 2), ""});
     return result;
 }
 
@@ -89,10 +88,13 @@ bool Marker::is_from_inertia(MarkedLine& line, const std::function<std::optional
     const std::string T = letters_.name_of(MechanicalQuantity::kinetic);
     for (const auto& [d, inertia] : inertias_) {
         if (lines[d].status != LineStatus::definition) continue;
-        for (const ex& energy : energies_with_inertia(inertia)) {
-            if (!own_.state_if(T, energy, d, [&] { return (line.follows_from = from()).has_value(); })) continue;
+        for (const WrongInertia& wrong : energies_with_inertia(inertia)) {
+            if (!own_.state_if(T, wrong.energy, d, [&] { return (line.follows_from = from()).has_value(); }))
+                continue;
             lines[d].status = LineStatus::mistake;
             lines[d].reason = say("no body of the scene has this moment of inertia");
+            if (!wrong.meant.empty())
+                lines[d].right = lines[d].claim.substr(0, lines[d].claim.find(" = ")) + " = " + wrong.meant;
             notes_[d].is_sure = true;
             notes_[d].claim = {};
             line.status = LineStatus::follows;

@@ -77,10 +77,11 @@ bool states(const Written& written, const Letter& letter) {
 }
 
 bool holds(const Written& written, const Letter& letter) {
-    return std::any_of(written.statements.begin(), written.statements.end(), [&](const WrittenStatement& statement) {
-        return std::any_of(statement.sides.begin(), statement.sides.end(),
-                           [&](const MathPtr& side) { return speaks_of(*side, letter); });
-    });
+    return std::any_of(written.statements.begin(), written.statements.end(),
+                       [&](const WrittenStatement& statement) {
+                           return std::any_of(statement.sides.begin(), statement.sides.end(),
+                                              [&](const MathPtr& side) { return speaks_of(*side, letter); });
+                       });
 }
 
 /// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.

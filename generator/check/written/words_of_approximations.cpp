@@ -111,12 +111,13 @@ namespace {
 /// "Small θ:", with a letter and no thing behind it.
 bool is_small_alone(const std::string& sentence) {
     constexpr std::size_t longest = 24;
-    static constexpr std::string_view words[] = {"small",  "kleine",  "kleines", "petit",  "petits", "pequeño",
-                                                 "piccolo", "piccoli", "małe",    "малые",  "малое",  "små"};
+    static constexpr std::string_view words[] = {"small",   "kleine",  "kleines", "petit", "petits", "pequeño",
+                                                 "piccolo", "piccoli", "małe",    "малые", "малое",  "små"};
     return sentence.size() < longest &&
            std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
-               return sentence == word || (sentence.starts_with(std::string(word) + " ") &&
-                                           sentence.find_first_of("$\\θφαψβεxyu", word.size()) != std::string::npos);
+               return sentence == word ||
+                      (sentence.starts_with(std::string(word) + " ") &&
+                       sentence.find_first_of("$\\θφαψβεxyu", word.size()) != std::string::npos);
            });
 }
 
