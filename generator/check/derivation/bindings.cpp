@@ -75,6 +75,8 @@ std::map<std::string, std::string> masses_with_parameters(const Scene& scene) {
 }
 
 std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
+    for (const Point& point : scene.points)  // C of a circle, where the scene has a point of this name
+        if (point.name.text == index) return {{index, true}};
     const std::vector<std::string> masses = masses_of(scene);
     std::vector<Place3> result = matching(masses, index, !is_counted(scene));
     for (const auto& [mass, thing] : masses_with_parameters(scene))  // v_M of the cart, whose mass is M

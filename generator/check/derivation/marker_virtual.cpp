@@ -59,6 +59,7 @@ bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
         if (!reason.unknown || !find_place(line, lhs, rhs, *reason.unknown)) throw;
     }
     if (line.status == LineStatus::mistake || line.status == LineStatus::follows) take_in_displacement(lhs, rhs);
+    if (is_zero(rhs) && !holds_rates(lhs)) heard_.assumed_rest = true;  // Σ F δr = 0
     return true;
 }
 

@@ -62,6 +62,20 @@ bool holds_square_of_rate(const Math& math) {
                                     [](const MathPtr& arg) { return holds_square_of_rate(*arg); });
 }
 
+/// How many rates are multiplied in it, at most.
+int degree_in_rates(const Math& math) {
+    if (math.kind == Kind::letter) return math.dots > 0 ? 1 : 0;
+    if (math.kind == Kind::power) return 2 * degree_in_rates(*math.args[0]);
+    int sum = 0, most = 0;
+    for (const MathPtr& arg : math.args)
+        sum += degree_in_rates(*arg), most = std::max(most, degree_in_rates(*arg));
+    return math.kind == Kind::product ? sum : most;
+}
+
+bool is_linear_in_rates(const Math& math) {
+    return degree_in_rates(math) == 1;
+}
+
 std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
     return std::count_if(lines.begin(), lines.end(),
                          [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
@@ -130,6 +144,8 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
                 const bool is_scenes = name && letters.is_of_scene(*name) && identifier_of(*letter) == *name;
+                if (letter->base == "K" && name && !is_scenes && is_known && is_linear_in_rates(value))
+                    letters.leave_to_author(*letter);  // an angular momentum
                 if (!is_scenes && has_motion(value, letters) && is_known && !holds_square_of_rate(value) &&
                     speaks_of_angular_momentum(statement.words))
                     letters.leave_to_author(*letter);

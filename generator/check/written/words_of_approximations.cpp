@@ -108,17 +108,22 @@ constexpr std::string_view phrases_of_first_order =
 
 namespace {
 
-/// "Small θ:", with a letter and no thing behind it.
+/// "Small θ:", "Now small theta (cos θ ~ 1)", with a letter and no thing behind it.
 bool is_small_alone(const std::string& sentence) {
-    constexpr std::size_t longest = 24;
+    constexpr std::size_t longest_letter = 7;  // "theta1"
     static constexpr std::string_view words[] = {"small",   "kleine",  "kleines", "petit", "petits", "pequeño",
                                                  "piccolo", "piccoli", "małe",    "малые", "малое",  "små"};
-    return sentence.size() < longest &&
-           std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
-               return sentence == word ||
-                      (sentence.starts_with(std::string(word) + " ") &&
-                       sentence.find_first_of("$\\θφαψβεxyu", word.size()) != std::string::npos);
-           });
+    std::string head = sentence.substr(0, sentence.find('('));
+    head.erase(head.find_last_not_of(" :,") + 1);
+    const std::size_t last = head.rfind(' ');
+    const std::string before = last == std::string::npos ? "" : head.substr(0, last);
+    const bool has_letter = head.size() - (last == std::string::npos ? 0 : last + 1) <= longest_letter;
+    return std::any_of(std::begin(words), std::end(words), [&](std::string_view word) {
+        const auto ends_so = [&](const std::string& text) {
+            return text == word || text.ends_with(' ' + std::string(word));
+        };
+        return ends_so(head) || (has_letter && ends_so(before));
+    });
 }
 
 }  // namespace
