@@ -120,4 +120,29 @@ duration = 1
     CHECK(result.err.find("to either side of sign(x) = 0") != std::string::npos);
 }
 
+// v' = t − 3 |v| from rest: v = t/3 − 1/9 + exp(−3t)/9, and x its integral. At t = 0 neither side is pushed.
+TEST_CASE("kinks: a motion from rest leaves the kink of |x'| to the side to which a growing force pushes it") {
+    for (const double push : {1.0, -1.0})
+        for (const char* const method : {"auto", "dop853", "radau"}) {
+            const std::string scene = temporary("pushed.toml", fmt::format(R"toml(
+[coordinates]
+x = 0
+[energy]
+kinetic = "x'^2/2"
+[forces]
+x = "{0}*t - {0}*3*abs(x')"
+[simulation]
+duration = 2
+tolerance = 1e-12
+)toml",
+                                                                           push));
+            CAPTURE(method);
+            const Json motion = simulated(scene, {"--method", method});
+            const double t = 2;
+            CHECK(std::abs(rate(motion, "x") - push * (t / 3 - 1.0 / 9 + std::exp(-3 * t) / 9)) < 1e-11);
+            CHECK(std::abs(coordinate(motion, "x") - push * (t * t / 6 - t / 9 + (1 - std::exp(-3 * t)) / 27)) <
+                  1e-11);
+        }
+}
+
 }  // namespace commands_kinks

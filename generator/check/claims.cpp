@@ -167,7 +167,8 @@ ex Claims::read_at_impact(const Expression& expression) {
 
 ClaimForm Claims::read(const Claim& claim) {
     ClaimForm form;
-    const ex residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
+    const ex written = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
+    const ex residual = without_state_rates(written, m_);
     form.residual = without_third_derivatives(residual, claim.place);
     form.third = !form.residual.is_equal(residual);
     form.residual = counted_from(form.residual, m_, driven_);

@@ -11,6 +11,7 @@
 #include "analysis/exact/motions.hpp"
 #include "check/printed_names.hpp"
 #include "model/formalism/driven.hpp"
+#include "model/formalism/with_states.hpp"
 #include "model/formulas.hpp"
 
 namespace alembert {
@@ -46,7 +47,8 @@ public:
     /// are not linear in what they leave open: L = m r² θ' into m r'' − L²/(m r³) = …
     void define(const GiNaC::symbol& constant, const GiNaC::ex& value) { defined_[constant] = value; }
     GiNaC::ex read(const Expression& expression) {
-        return counted_from(m_.z->name(formulas_.value(expression)), m_, driven_);
+        const GiNaC::ex value = m_.z->name(formulas_.value(expression));
+        return counted_from(without_state_rates(value, m_), m_, driven_);
     }
     /// The same at the scene's impact, for claims about it.
     GiNaC::ex read_at_impact(const Expression& expression);

@@ -114,6 +114,8 @@ Counterexample described(const Told& told, const RealState& state, const numeric
             add(m.q[i].get_name() + "'", {Kind::rate, i});
         else
             add_value(told, m.q[i].get_name() + "'", m.qdot[i] + driven->second, state, result);
+    for (int k = 0; k < static_cast<int>(m.states.size()); ++k)
+        add(m.states[k].derivative[0].get_name(), {Kind::rate, m.size() + k});
     for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name() + "''", {Kind::acceleration, i});
     add_speeds(told, state, result);
     const auto& lambda = told.equations.lambda;

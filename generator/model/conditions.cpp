@@ -99,9 +99,7 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
         slip = add(slip, scale(-1, moving, z), z);
     }
     const std::array<Name, 3> multipliers = multipliers_of(rule);
-    std::vector<GiNaC::symbol> clock{here.m.t};
-    for (const Mechanism::Input& input : here.m.inputs)
-        clock.insert(clock.end(), input.derivative.begin(), input.derivative.end());
+    const std::vector<GiNaC::symbol> clock = here.m.clock();
     // Velocities are homogeneous in the rates if no position and no orientation depends on time explicitly.
     const auto by_itself = [&](const Vector3& v) {
         return std::any_of(v.begin(), v.end(), [&](const ex& e) { return z.depends(e, clock); });

@@ -84,6 +84,25 @@ void declare_coordinates(Building& here) {
     }
 }
 
+void declare_states(Building& here) {
+    for (std::size_t i = 0; i < here.scene.states.size(); ++i) {
+        const FirstOrderState& z = here.scene.states[i];
+        Mechanism::State made{.derivative = {},
+                              .rate = 0,
+                              .start = 0,
+                              .unit = z.unit,
+                              .about = z.about,
+                              .place = z.name.place,
+                              .shown = z.shown};
+        for (int order = 0; order < 3; ++order)
+            made.derivative[order] =
+                here.m.symbols->declare(z.name.text, SymbolInfo::Kind::state, static_cast<int>(i), order);
+        here.translator.know(z.name.text, made.derivative[0]);
+        here.attempt([&] { made.start = here.m.z->expand(here.translator.scalar(z.initial)); });
+        here.m.states.push_back(std::move(made));
+    }
+}
+
 void declare_functions(Building& here) {
     for (std::size_t i = 0; i < here.scene.functions.size(); ++i)
         here.translator.know_function(here.m.symbols->declare(here.scene.functions[i].name.text,
@@ -131,6 +150,8 @@ void check_given(Building& here) {
     }
     for (const Speed& s : here.scene.speeds)
         if (s.initial) require(here, s.initial, say("the initial value of '{}'", s.name.text));
+    for (const FirstOrderState& z : here.scene.states)
+        require(here, z.initial, say("the initial value of '{}'", z.name.text));
     if (here.scene.simulation.start) require(here, here.scene.simulation.start, say("the start"));
     if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
 }
@@ -164,6 +185,7 @@ void declare(Building& here) {
     declare_parameters(here);
     declare_inputs(here);
     declare_coordinates(here);
+    declare_states(here);
     declare_functions(here);
     if (here.mistakes.empty()) {
         here.values.emplace(here.m);

@@ -24,13 +24,6 @@ std::optional<ex> at_rest(const ex& e, const Mechanism& m) {
     }
 }
 
-std::vector<GiNaC::symbol> clock(const Mechanism& m) {
-    std::vector<GiNaC::symbol> symbols{m.t};
-    for (const Mechanism::Input& input : m.inputs)
-        symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
-    return symbols;
-}
-
 /// A frame that turns at a given rate leaves T₁ and T₀ in T even if t itself cancels from T (a gyrocompass).
 /// Therefore the positions are tested, not T.
 bool places_depend_on_time(const Mechanism& m) {
@@ -43,7 +36,7 @@ bool places_depend_on_time(const Mechanism& m) {
         if (body.rotation)
             for (const Vector3& axis : body.rotation->axes) add(axis);
     }
-    return m.z->depends(places, clock(m));
+    return m.z->depends(places, m.clock());
 }
 
 }  // namespace

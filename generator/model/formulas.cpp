@@ -17,6 +17,10 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootS
     know("t", m.t);
     for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.symbol);
     for (const Mechanism::Input& input : m.inputs) know(input.derivative[0].get_name(), input.derivative[0]);
+    for (const Mechanism::State& state : m.states) {
+        know(state.derivative[0].get_name(), state.derivative[0]);
+        has_no_derivative(state.derivative[2]);
+    }
     for (const GiNaC::symbol& function : m.symbols->functions()) translator_.know_function(function);
     std::set<std::string> numbers;
     for (const Mechanism::Definition& d : m.definitions) {

@@ -22,10 +22,12 @@ ex total(const std::vector<Part>& parts, Intermediates& z) {
 
 Intermediates::Direction along_time(const Mechanism& m) {
     Intermediates::Direction direction{{m.t, 1}};
-    for (const Mechanism::Input& input : m.inputs) {
-        direction.emplace_back(input.derivative[0], input.derivative[1]);
-        direction.emplace_back(input.derivative[1], input.derivative[2]);
-    }
+    const auto follow = [&](const std::array<GiNaC::symbol, 3>& derivative) {
+        direction.emplace_back(derivative[0], derivative[1]);
+        direction.emplace_back(derivative[1], derivative[2]);
+    };
+    for (const Mechanism::Input& input : m.inputs) follow(input.derivative);
+    for (const Mechanism::State& state : m.states) follow(state.derivative);
     return direction;
 }
 
@@ -61,9 +63,17 @@ std::vector<const Mechanism::Constraint*> Mechanism::undetermined() const {
 
 std::vector<GiNaC::symbol> Mechanism::moving() const {
     std::vector<GiNaC::symbol> symbols = q;
-    symbols.push_back(t);
+    const std::vector<GiNaC::symbol> others = clock();
+    symbols.insert(symbols.end(), others.begin(), others.end());
+    return symbols;
+}
+
+std::vector<GiNaC::symbol> Mechanism::clock() const {
+    std::vector<GiNaC::symbol> symbols{t};
     for (const Input& input : inputs)
         symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
+    for (const State& state : states)
+        symbols.insert(symbols.end(), state.derivative.begin(), state.derivative.end());
     return symbols;
 }
 
@@ -99,8 +109,9 @@ std::vector<ex> Mechanism::explicit_time_derivative(const std::vector<ex>& value
 }
 
 bool Mechanism::has_kicks() const {
-    return std::any_of(event_actions.begin(), event_actions.end(),
-                       [](const EventAction& o) { return !o.impulse.empty(); });
+    return std::any_of(event_actions.begin(), event_actions.end(), [](const EventAction& o) {
+        return !o.impulse.empty() || !o.set.empty() || !o.rates.empty() || o.count;
+    });
 }
 
 std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {

@@ -139,6 +139,17 @@ struct Mechanism {
         Shown shown = {};
     };
 
+    /// A first-order state of the scene, z' = rate. Energies, loads and constraints see it as a given function of
+    /// time, of which only the derivative is known.
+    struct State {
+        std::array<GiNaC::symbol, 3> derivative;  ///< z, z', z''
+        GiNaC::ex rate;                           ///< in q, q', the states, inputs and t; not in z'
+        GiNaC::ex start;                          ///< in parameters
+        std::string unit, about;
+        Place place;
+        Shown shown = {};
+    };
+
     /// A constraint as a row: row·q' + drift = 0 and, differentiated once more, row·q'' = acceleration.
     struct Constraint {
         std::string name;
@@ -219,6 +230,7 @@ struct Mechanism {
     std::vector<bool> q_is_guess,
         qdot_is_guess;          ///< values that may be changed so that the constraints hold at the start
     std::vector<Speed> speeds;  ///< if empty, the rates are the speeds
+    std::vector<State> states;  ///< part of the state of a motion, behind q and the speeds
     std::vector<Part> kinetic, potential;
     std::optional<GiNaC::ex> given_lagrangian;  ///< if given, `kinetic` and `potential` are empty
     std::vector<Load> loads;
@@ -251,6 +263,10 @@ struct Mechanism {
         int direction = 0;  ///< +1: only where the value grows; −1: only where it falls; 0: both
         /// Q̂ by coordinate, in q, t and the rates before; empty if there is none.
         std::vector<GiNaC::ex> impulse = {};
+        /// The new values of states, by their position in `states`, and of rates, by that of their coordinate.
+        std::vector<std::pair<int, GiNaC::ex>> set = {}, rates = {};
+        std::vector<std::string> record = {};  ///< the columns of a run whose values there are told
+        std::optional<int> count = {};         ///< the run stops at the zero of this number
     };
     std::vector<EventAction> event_actions;  ///< one for each of `events`
 
@@ -275,17 +291,19 @@ struct Mechanism {
     /// constraints that follow from others.
     std::vector<const Constraint*> undetermined() const;
 
-    /// The symbols that change with time, except the rates: coordinates, t, inputs.
+    /// The symbols that change with time, except the rates: coordinates, t, inputs, states.
     std::vector<GiNaC::symbol> moving() const;
+    /// Those of them that change whatever the coordinates do: t, inputs, states.
+    std::vector<GiNaC::symbol> clock() const;
 
     GiNaC::ex kinetic_energy() const;
     GiNaC::ex potential_energy() const;
     /// T − V, or the Lagrangian that the scene gives.
     GiNaC::ex lagrangian() const;
 
-    /// The total time derivative of each value: q → q', q' → q'', inputs → their derivatives, t → 1.
+    /// The total time derivative of each value: q → q', q' → q'', inputs and states → their derivatives, t → 1.
     std::vector<GiNaC::ex> time_derivative(const std::vector<GiNaC::ex>& values) const;
-    /// The part of the time derivative at q'' = 0 that does not come from q: ∂/∂t, inputs included.
+    /// The part of the time derivative at q'' = 0 that does not come from q: ∂/∂t, inputs and states included.
     std::vector<GiNaC::ex> explicit_time_derivative(const std::vector<GiNaC::ex>& values) const;
     /// The time derivative at q'' = 0.
     std::vector<GiNaC::ex> time_derivative_without_acceleration(const std::vector<GiNaC::ex>& values) const;

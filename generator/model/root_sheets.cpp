@@ -80,6 +80,8 @@ RootSheets::RootSheets(const Mechanism& m)
         start_[m.q[i]] = values.number(m.z->expand(m.q_start[i]));
         start_[m.qdot[i]] = values.number(m.z->expand(m.qdot_start[i]));
     }
+    for (const Mechanism::State& state : m.states)
+        start_[state.derivative[0]] = values.number(m.z->expand(state.start));
     start_[m.t] = m.run.start ? values.number(m.z->expand(*m.run.start)) : 0.0;
 }
 
@@ -103,7 +105,8 @@ bool RootSheets::is_of_positions(const ex& e) const {
     if (GiNaC::is_a<GiNaC::symbol>(e)) {
         const SymbolInfo& info = symbols_->info(GiNaC::ex_to<GiNaC::symbol>(e));
         return info.kind == SymbolInfo::Kind::parameter || info.kind == SymbolInfo::Kind::time ||
-               ((info.kind == SymbolInfo::Kind::coordinate || info.kind == SymbolInfo::Kind::input) &&
+               ((info.kind == SymbolInfo::Kind::coordinate || info.kind == SymbolInfo::Kind::input ||
+                 info.kind == SymbolInfo::Kind::state) &&
                 info.order == 0);
     }
     return std::all_of(e.begin(), e.end(), [this](const ex& part) { return is_of_positions(part); });

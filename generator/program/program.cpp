@@ -469,6 +469,7 @@ Program Program::shell() const {
     result.coordinates = coordinates;
     result.functions = functions;
     result.speeds = speeds;
+    result.states = states;
     result.formulation = formulation;
     result.is_textbook = is_textbook;
     result.singular = singular;

@@ -263,6 +263,7 @@ public:
     std::vector<Quantity> parameters, coordinates;  ///< the quantities to which the indices of variables refer
     std::vector<std::string> functions;             ///< names of [functions], to which Op::unspecified refers
     std::vector<Quantity> speeds;  ///< the speeds in the state; if empty, the rates of the coordinates
+    int states = 0;                ///< how many of the speeds, at the end, are first-order states of the scene
     std::string formulation;       ///< formalism and form, for people
     /// Whether the equations are in their readable form, with the order of terms of a book.
     bool is_textbook = false;

@@ -28,6 +28,7 @@ public:
     void check() {
         describe_definitions();
         check_speeds();
+        check_states();
         check_values();
         check_geometry();
         check_joints();
@@ -144,6 +145,15 @@ private:
         for (const Coordinate& c : scene_.coordinates) {
             quantities_.check(c.initial, initial);
             quantities_.check(c.rate, initial);
+        }
+    }
+
+    void check_states() {
+        const Legal initial{.subject = say("an initial value"), .definitions = false},
+            rate{.subject = say("the rate of a state"), .order = 1, .input_order = 2, .time = true};
+        for (const FirstOrderState& state : scene_.states) {
+            quantities_.check(state.initial, initial);
+            quantities_.check(state.rate, rate);
         }
     }
 
@@ -449,6 +459,29 @@ private:
                                               : say("the energy")));
     }
 
+    void check_changes(const EventRule& event) {
+        for (const GeneralizedForce& one : event.set) {
+            check_state(one.coordinate);
+            quantities_.check(
+                one.value, {.subject = say("the value of a state"), .order = 1, .input_order = 2, .time = true});
+        }
+        for (const GeneralizedForce& one : event.rates) {
+            check_coordinate(one.coordinate);
+            quantities_.check(one.value, {.subject = say("a rate"), .order = 1, .input_order = 2, .time = true});
+        }
+    }
+
+    void check_state(const Name& name) {
+        const Declared* const declared = NameSpaces::find(names_.values, name.text);
+        if (declared && declared->kind == Declared::Kind::state) return;
+        std::vector<std::string> states;
+        for (const FirstOrderState& z : scene_.states) states.push_back(z.name.text);
+        complain(name.place, declared ? say("{} is {}; an event sets a state: declare it in [states]",
+                                            in_quotes(name.text), described(declared->kind))
+                                      : say("unknown state {}{}; declare it in [states]", in_quotes(name.text),
+                                            quantities_.suggestion(name.text, states)));
+    }
+
     void check_runs() {
         Legal anything{
             .subject = say("an output"), .order = 2, .input_order = 2, .time = true, .multipliers = true};
@@ -459,8 +492,10 @@ private:
         }
         std::unordered_map<std::string, Place> events;
         for (const EventRule& event : scene_.events) {
-            quantities_.check(event.when,
-                              {.subject = say("an event"), .order = 1, .input_order = 2, .time = true});
+            quantities_.check(
+                event.when,
+                {.subject = say("an event"), .order = 1, .input_order = 2, .time = true, .multipliers = true});
+            check_changes(event);
             for (const GeneralizedForce& i : event.impulses) {
                 check_coordinate(i.coordinate);
                 quantities_.check(i.value,

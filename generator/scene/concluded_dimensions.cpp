@@ -26,6 +26,7 @@ public:
         };
         for (const Coordinate& q : scene_.coordinates) add(q.name.text, q.unit);
         for (const Speed& u : scene_.speeds) add(u.name.text, u.unit);
+        for (const FirstOrderState& z : scene_.states) add(z.name.text, z.unit);
         for (const ConstraintRule& c : scene_.constraints) {
             std::optional<Dimension> of_equation = dimensions_.of(c.equation.lhs);
             if (!of_equation || is_number(c.equation.lhs)) of_equation = dimensions_.of(c.equation.rhs);
@@ -72,6 +73,12 @@ private:
         for (const Speed& u : scene_.speeds) {
             learn(u.form, dimensions_.of_name(u.name.text));
             if (const auto own = dimensions_.of(u.form)) is_new = dimensions_.learn(u.name.text, *own) || is_new;
+        }
+        for (const FirstOrderState& z : scene_.states) {
+            const std::optional<Dimension> own = dimensions_.of_name(z.name.text);
+            learn(z.rate, own ? std::optional(over_time(*own)) : std::nullopt);
+            if (const auto rate = dimensions_.of(z.rate); rate && z.rate.tree && !is_number(z.rate))
+                is_new = dimensions_.learn(z.name.text, multiplied(*rate, {{"s", 1}}, 1)) || is_new;
         }
         for (const UnilateralRule& u : scene_.unilateral) learn(u.gap, {});
         for (const Definition& d : scene_.definitions) learn(d.value, dimensions_.of_name(d.name.text));

@@ -24,8 +24,8 @@ struct ConcludedDimension {
     bool is_given = false;               ///< by a unit
 };
 
-/// In the order coordinates, speeds, multipliers of constraints and of contacts; multipliers of rolling are those
-/// along x, y and z. Joints that close loops are left out.
+/// In the order coordinates, speeds, states, multipliers of constraints and of contacts; multipliers of rolling
+/// are those along x, y and z. Joints that close loops are left out.
 std::vector<ConcludedDimension> concluded_dimensions(const Scene& scene);
 
 }  // namespace alembert

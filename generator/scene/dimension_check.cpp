@@ -64,6 +64,7 @@ private:
         for (const Input& f : scene_.inputs) matches(f, f.value);
         for (const Coordinate& q : scene_.coordinates) matches(q, q.initial), matches(q, q.rate, 1);
         for (const Speed& u : scene_.speeds) matches(u, u.form), matches(u, u.initial);
+        for (const FirstOrderState& z : scene_.states) matches(z, z.rate, 1), matches(z, z.initial);
     }
 
     void check_sums() {
@@ -77,6 +78,7 @@ private:
         for (const Output& o : scene_.outputs) dimensions_.of(o.value);
         for (const FrictionRule& f : scene_.frictions) dimensions_.of(f.slip), dimensions_.of(f.normal);
         for (const Speed& u : scene_.speeds) dimensions_.of(u.form);
+        for (const FirstOrderState& z : scene_.states) dimensions_.of(z.rate);
         for (const Link& s : scene_.springs) dimensions_.of(s.along);
         for (const Link& d : scene_.dampers) dimensions_.of(d.along);
     }

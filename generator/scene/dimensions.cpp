@@ -78,6 +78,7 @@ Dimensions::Dimensions(const Scene& scene, Numbers numbers) : numbers_(numbers) 
     for (const Parameter& p : scene.parameters) know(p.name.text, p.unit);
     for (const Coordinate& q : scene.coordinates) know(q.name.text, q.unit);
     for (const Speed& u : scene.speeds) know(u.name.text, u.unit);
+    for (const FirstOrderState& z : scene.states) know(z.name.text, z.unit);
     for (const Input& f : scene.inputs) know(f.name.text, f.unit);
     is_useful_ = std::any_of(names_.begin(), names_.end(), [](const auto& entry) {
         return entry.second != Dimension{} && entry.second != Dimension{{"s", 1}};

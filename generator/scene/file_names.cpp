@@ -67,7 +67,7 @@ OwnUnits units_in(const toml::node_view<const toml::node>& node) {
 KnownNames names_in(const toml::table& scene) {
     KnownNames names;
     names.set_units(units_in(scene["units"]));
-    for (const std::string_view table : {"coordinates", "speeds", "inputs", "definitions"})
+    for (const std::string_view table : {"coordinates", "speeds", "states", "inputs", "definitions"})
         add_keys(scene[table], names, true);
     for (const std::string_view table : {"parameters", "functions", "outputs"})
         add_keys(scene[table], names, false);

@@ -52,7 +52,8 @@ KnownNames::KnownNames(const Scene& scene) : units_(scene.units) {
     for (const NameSpaces::Space* const space : {&names.values, &names.frames, &names.points})
         for (const auto& [name, declared] : *space)
             add(name, declared.kind == Kind::coordinate || declared.kind == Kind::speed ||
-                          declared.kind == Kind::input || declared.kind == Kind::definition);
+                          declared.kind == Kind::state || declared.kind == Kind::input ||
+                          declared.kind == Kind::definition);
     for (const Output& output : scene.outputs) add(output.name.text);
     for (const std::string& letter : book_letters(scene, names))
         if (letter.find('_') != std::string::npos) add(letter, true);  // Q_θ; T alone may be a unit

@@ -97,6 +97,8 @@ std::string described(DeclaredAs kind) {
             return say("a coordinate");
         case DeclaredAs::speed:
             return say("a generalized speed");
+        case DeclaredAs::state:
+            return say("a state");
         case DeclaredAs::parameter:
             return say("a parameter");
         case DeclaredAs::input:
@@ -129,6 +131,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     std::vector<Declaration> values, frames, points;
     add(values, scene.coordinates, DeclaredAs::coordinate);
     add(values, scene.speeds, DeclaredAs::speed);
+    add(values, scene.states, DeclaredAs::state);
     add(values, scene.parameters, DeclaredAs::parameter);
     add(values, scene.inputs, DeclaredAs::input);
     add(values, scene.definitions, DeclaredAs::definition);

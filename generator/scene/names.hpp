@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The three name spaces of a scene: values (coordinates, speeds, parameters, inputs, definitions, functions),
-/// frames (and bodies), points (and particles and bodies' mass centres).
+/// The three name spaces of a scene: values (coordinates, speeds, states, parameters, inputs, definitions,
+/// functions), frames (and bodies), points (and particles and bodies' mass centres).
 
 #include <string>
 #include <unordered_map>
@@ -16,6 +16,7 @@ struct Declared {
     enum class Kind {
         coordinate,
         speed,
+        state,
         parameter,
         input,
         definition,

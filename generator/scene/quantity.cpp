@@ -315,6 +315,8 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
             return constant(say("is a parameter and does not change with time"));
         case Declared::Kind::coordinate:
             return meet(context, tree, {.order = 0}, raised + tree.primes);
+        case Declared::Kind::state:
+            return meet(context, tree, {.order = 0}, raised + tree.primes);
         case Declared::Kind::input:
             return meet(context, tree, {.input_order = 0, .time = true}, raised + tree.primes);
         case Declared::Kind::definition:
@@ -357,6 +359,7 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
         tree.kind == Kind::name ? NameSpaces::find(names_.values, tree.text) : nullptr;
     const std::string word = in_quotes(tree.text + std::string(static_cast<std::size_t>(tree.primes), '\''));
     const bool is_speed = declared && declared->kind == Declared::Kind::speed;
+    const bool is_state = declared && declared->kind == Declared::Kind::state;
     const bool indirect = is_speed || (declared && declared->kind == Declared::Kind::definition);
     if (found.order > std::max(2, legal.order) || found.input_order > 2)
         return complain(context, tree,
@@ -367,6 +370,7 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
                             legal.time ? say("the time and parameters") : say("parameters"), word,
                             is_speed   ? say("is a generalized speed")
                             : indirect ? say("contains a coordinate")
+                            : is_state ? say("is a state")
                             : declared ? say("is a coordinate")
                                        : say("depends on the coordinates")) +
                             legal.if_changing);
@@ -393,7 +397,7 @@ std::string Quantities::advice_on(const std::string& word) const {
         const Declared* const declared = NameSpaces::find(names_.values, name);
         return declared != nullptr &&
                (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::input ||
-                declared->kind == Declared::Kind::speed);
+                declared->kind == Declared::Kind::speed || declared->kind == Declared::Kind::state);
     };
     for (const auto& [before, after, primes] : spellings_of_rates) {
         if (word.size() <= before.size() + after.size() || !word.starts_with(before) || !word.ends_with(after))

@@ -149,8 +149,8 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
             header_of(*top.find("polynomial")),
             say("a scene has either [coordinates] or a [polynomial], which stands for a system without a "
                 "mechanism; leave one out"));
-    // Joints without coordinates weld bodies, and what they bear is asked for.
-    if (scene.coordinates.empty() && scene.joints.empty() && !has_polynomial && !is_other)
+    // Joints without coordinates weld bodies, and what they bear is asked for; states move without a mechanism.
+    if (scene.coordinates.empty() && scene.joints.empty() && scene.states.empty() && !has_polynomial && !is_other)
         reading.complain(coordinates ? header_of(*coordinates) : Place{},
                          say("the scene has no [coordinates]; at least one is needed"));
     std::stable_sort(scene.coordinates.begin(), scene.coordinates.end(),

@@ -127,13 +127,32 @@ std::vector<std::pair<Name, Expression>> values_by_name(const Table& table, std:
     return result;
 }
 
-std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
-    std::vector<GeneralizedForce> impulses;
-    for (auto& [name, value] :
-         values_by_name(table, "impulses", say("impulses by coordinate: {{ theta = \"expression\" }}"),
-                        say("the impulse along")))
-        impulses.push_back({name, value});
-    return impulses;
+std::vector<GeneralizedForce> read_values(const Table& table, std::string_view key, std::string_view expected,
+                                          std::string_view each) {
+    std::vector<GeneralizedForce> values;
+    for (auto& [name, value] : values_by_name(table, key, expected, each)) values.push_back({name, value});
+    return values;
+}
+
+/// The columns of a run whose values are told, record = ["theta", "theta'"].
+std::vector<Name> read_recorded(const Table& table) {
+    std::vector<Name> recorded = table.names("record");
+    for (Name& name : recorded) name.text = written_name(name.text, table.reading().names);
+    if (recorded.empty() && table.has("record"))
+        table.complain("record", say("{} is {}; expected the names of columns of a run: [\"theta\", \"theta'\"]",
+                                     table.what("record"), say("empty")));
+    return recorded;
+}
+
+std::optional<int> read_count(const Table& table) {
+    constexpr std::int64_t most = 1000000000;
+    const Entry* const entry = table.find("count");
+    if (!entry) return {};
+    const std::optional<std::int64_t> count = entry->node->value_exact<std::int64_t>();
+    if (count && *count >= 1 && *count <= most) return static_cast<int>(*count);
+    table.complain("count", say("{} is {}; expected how many zeros there are until the run stops, as in count = 3",
+                                table.what("count"), kind_of(*entry->node)));
+    return {};
 }
 
 void read_event(Table table, Scene& scene) {
@@ -144,7 +163,13 @@ void read_event(Table table, Scene& scene) {
     event.when = table.needed_expression("when");
     event.stop = table.flag("stop");
     event.direction = read_direction(table);
-    event.impulses = read_impulses_of(table);
+    event.impulses = read_values(table, "impulses", say("impulses by coordinate: {{ theta = \"expression\" }}"),
+                                 say("the impulse along"));
+    event.set = read_values(table, "set", say("values by state: {{ z = \"expression\" }}"), say("the value of"));
+    event.rates =
+        read_values(table, "rates", say("rates by coordinate: {{ theta = \"expression\" }}"), say("the rate of"));
+    event.record = read_recorded(table);
+    event.count = read_count(table);
     scene.events.push_back(std::move(event));
 }
 

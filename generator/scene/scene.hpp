@@ -93,6 +93,16 @@ struct Speed {
     Shown shown = {};
 };
 
+/// A first-order state z, whose rate z' is given.
+struct FirstOrderState {
+    Name name;
+    Expression rate;     ///< in coordinates, rates, states, inputs, parameters and t; null if events alone set it
+    Expression initial;  ///< in parameters; the number 0 when missing
+    std::string unit, about;
+    Place unit_place = {};
+    Shown shown = {};
+};
+
 /// One simple rotation about an axis of the frame reached so far.
 struct Rotation {
     char letter = 0;  ///< 'x', 'y' or 'z'; 0 if the axis is a vector
@@ -262,6 +272,10 @@ struct EventRule {
     bool stop = false;
     int direction = 0;  ///< +1: only where `when` grows; −1: only where it falls; 0: both
     std::vector<GeneralizedForce> impulses = {};  ///< act at each zero, and may depend on the rates before it
+    /// The values of states and rates after each zero, in the state before it.
+    std::vector<GeneralizedForce> set = {}, rates = {};
+    std::vector<Name> record = {};  ///< the columns of a run whose values at each zero are told
+    std::optional<int> count = {};  ///< the run stops at the zero of this number
 };
 
 /// [polynomial]: a characteristic polynomial without a mechanism, highest power first.
@@ -324,6 +338,7 @@ struct Scene {
     std::vector<Input> inputs;
     std::vector<Coordinate> coordinates;
     std::vector<Speed> speeds;
+    std::vector<FirstOrderState> states;
     std::vector<Definition> definitions;
     std::vector<UnspecifiedFunction> functions;
     std::vector<Frame> frames;

@@ -106,6 +106,28 @@ void read_speeds(Table table, Scene& scene) {
     }
 }
 
+void read_states(Table table, Scene& scene) {
+    for (const Entry& entry : table.entries()) {
+        const std::string what = labelled(say("state"), entry.key);
+        FirstOrderState state{
+            .name = {entry.key, entry.place}, .rate = {}, .initial = zero(entry.place), .unit = {}, .about = {}};
+        if (const toml::table* const inner = entry.node->as_table()) {
+            const Table keys(table.reading(), *inner, what, entry.place);
+            keys.allow("states.*");
+            state.rate = keys.expression("rate");
+            if (keys.has("initial")) state.initial = keys.expression("initial");
+            state.unit = keys.unit("unit", state.unit_place);
+            state.about = keys.text("about");
+        } else {
+            table.reading().complain(
+                entry.place,
+                say("{} is {}; expected its rate and where it starts: {} = {{ rate = \"…\", initial = 0 }}", what,
+                    kind_of(*entry.node), entry.key));
+        }
+        scene.states.push_back(std::move(state));
+    }
+}
+
 /// (x)*ex(N) + (y)*ey(N) + (z)*ez(N)
 Expression along_N(const Vector& vector, const Reading& reading) {
     if (!vector.component[0] || !vector.component[1] || !vector.component[2]) return {};
@@ -232,13 +254,11 @@ void read_outputs(Table table, Scene& scene) {
 
 std::span<const TableReader> symbol_sections() {
     static constexpr TableReader all[] = {
-        {"parameters", read_parameters},   {"inputs", read_inputs},
-        {"coordinates", read_coordinates}, {"speeds", read_speeds},
-        {"definitions", read_definitions}, {"functions", read_functions},
-        {"letters", read_letters},         {"units", read_units},
-        {"energy", read_energy},           {"dissipation", read_dissipation},
-        {"forces", read_forces},           {"impulses", read_impulses},
-        {"outputs", read_outputs},
+        {"parameters", read_parameters}, {"inputs", read_inputs},           {"coordinates", read_coordinates},
+        {"speeds", read_speeds},         {"states", read_states},           {"definitions", read_definitions},
+        {"functions", read_functions},   {"letters", read_letters},         {"units", read_units},
+        {"energy", read_energy},         {"dissipation", read_dissipation}, {"forces", read_forces},
+        {"impulses", read_impulses},     {"outputs", read_outputs},
     };
     return all;
 }

@@ -42,6 +42,7 @@ public:
         for (Input& f : scene_.inputs) convert(f, {&f.value});
         for (Coordinate& q : scene_.coordinates) convert(q, {&q.initial, &q.rate});
         for (Speed& u : scene_.speeds) convert(u, {&u.initial});
+        for (FirstOrderState& z : scene_.states) convert(z, {&z.initial});
     }
 
 private:
@@ -130,7 +131,8 @@ bool is_in_si(const Scene& scene) {
             return !meaning || meaning->is_si();
         });
     };
-    return are(scene.parameters) && are(scene.inputs) && are(scene.coordinates) && are(scene.speeds);
+    return are(scene.parameters) && are(scene.inputs) && are(scene.coordinates) && are(scene.speeds) &&
+           are(scene.states);
 }
 
 UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
@@ -147,6 +149,7 @@ UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
         return {};
     };
     if (const auto found = in(scene.coordinates)) return *found;
+    if (const auto found = in(scene.states)) return *found;
     if (is_rate) return {};
     if (const auto found = in(scene.speeds)) return *found;
     if (const auto found = in(scene.parameters)) return *found;
@@ -185,6 +188,7 @@ std::string unit_in_si(const Scene& scene, const std::string& name) {
             if (item.name.text == name) unit = item.unit;
     };
     look(scene.parameters), look(scene.inputs), look(scene.coordinates), look(scene.speeds);
+    look(scene.states);
     return unit;
 }
 

@@ -13,6 +13,7 @@ using GiNaC::ex;
 std::optional<std::string> not_canonical(const Derived& d) {
     if (!d.equations.speeds_are_rates())
         return say("the equations are in generalized speeds (the formalism 'routh' has them in rates)");
+    if (!d.mechanism.states.empty()) return say("the scene has first-order states ([states])");
     if (!d.mechanism.frictions.empty()) return say("there is dry friction ([[friction]])");
     for (const Mechanism::Constraint& c : d.mechanism.constraints)
         if (!c.position) return say("the constraint '{}' is one of rates", c.name);

@@ -23,7 +23,7 @@ using Quaternion = Eigen::Quaterniond;
 std::optional<AnglesOfFrame> angles_of_frame(const Derived& d, const MethodChoice& method) {
     const Mechanism& m = d.mechanism;
     if (!m.redundant.empty() || !m.unilateral.empty() || !m.frictions.empty() || !m.events.empty() ||
-        !m.speeds.empty() || !d.equations.speeds_are_rates())
+        !m.speeds.empty() || !m.states.empty() || !d.equations.speeds_are_rates())
         return std::nullopt;
     if (!method.sundials.empty() || has_fixed_step(method.method) || uses_jacobian(method.method) ||
         needs_canonical(method.method) || needs_separable(method.method))

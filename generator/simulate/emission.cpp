@@ -73,6 +73,7 @@ std::map<std::string, SceneNote> notes_of(const Emission& e) {
     add(e.scene.parameters);
     add(e.scene.coordinates);
     add(e.scene.speeds);
+    add(e.scene.states);
     return notes;
 }
 
@@ -149,6 +150,10 @@ void check_functions(const Emission& e, const EmissionOptions& options) {
         throw ModelError(say(
             "functions such as 'inverse' take coordinates and their rates, and the equations are in other speeds; "
             "leave out the table [speeds], and choose no formalism that has speeds of its own"));
+    if (!e.mechanism.states.empty())
+        throw ModelError(say(
+            "functions such as 'inverse' take coordinates and their rates, and the scene has first-order states "
+            "besides; leave out the table [states]"));
     const std::vector<std::string>& known = all_functions();
     const std::vector<std::string>& of_frames = functions_of_operational_space();
     for (const std::string& name : options.functions)

@@ -190,6 +190,12 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     e.q = state.q;
     for (const Quantity& q : program.coordinates) e.coordinates.push_back(q.name);
     const bool own_speeds = !program.speeds.empty();
+    for (std::size_t k = 0; k < m.states.size(); ++k) {
+        const std::size_t place = state.qdot.size() - m.states.size() + k;
+        const std::string name = m.states[k].derivative[0].get_name();
+        e.states.emplace_back(name, state.qdot[place]);
+        e.state_rates.emplace_back(name, state.qddot[place]);
+    }
     e.rates = own_speeds ? values_of(program, value, Group::rate) : state.qdot;
     e.accelerations = own_speeds ? values_of(program, value, Group::second_rate) : state.qddot;
     e.speeds = named_values(program, value, Group::speed);

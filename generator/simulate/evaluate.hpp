@@ -31,7 +31,8 @@ struct Evaluation : Derived {
     std::vector<double> q = {}, rates = {}, accelerations = {};
     Named speeds = {},
           speed_rates = {};  ///< the scene's generalized speeds and their rates; empty if there are none
-    Named multipliers = {};  ///< also those of open contacts, which are 0
+    Named states = {}, state_rates = {};  ///< the scene's first-order states and their rates
+    Named multipliers = {};               ///< also those of open contacts, which are 0
     double kinetic = 0, potential = 0, energy = 0;
     std::vector<std::pair<std::string, std::array<double, 2>>> residuals =
         {};  ///< for each constraint, the residuals of position and velocity

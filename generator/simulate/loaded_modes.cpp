@@ -58,11 +58,29 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
                       .restitution = restitutions(m, start.parameters),
                       .situation = [&view, at](double t, const double* y) { return view.at(at(t, y)); },
                       .on_jump = {}};
-    for (const Mechanism::EventAction& event : m.event_actions)
-        contacts.kicks.events.push_back(!event.impulse.empty());
+    bool sets = false, has_rates = false;
+    for (const Mechanism::EventAction& event : m.event_actions) {
+        contacts.kicks.events.push_back(!event.impulse.empty() || !event.set.empty() || !event.rates.empty() ||
+                                        event.count);
+        contacts.kicks.last.push_back(event.count.value_or(0));
+        sets = sets || !event.set.empty();
+        has_rates = has_rates || !event.rates.empty();
+    }
+    if (sets)
+        contacts.kicks.set = [&kicks, at](int event, double t, const double* before, double* after) {
+            kicks.set(event, at(t, before), after);
+        };
+    if (has_rates)
+        contacts.kicks.refusal = [&kicks, at](int event, double t, const double* before, const double* after) {
+            return kicks.refusal(event, at(t, before), at(t, after));
+        };
     contacts.kicks.coordinates = m.size();
-    contacts.kicks.impulse = [&kicks, at](int event, double t, const double* y) {
-        return kicks.impulse(event, at(t, y));
+    contacts.kicks.impulse = [&kicks, &view, at](int event, double t, const double* y) {
+        const State<double> before = at(t, y);
+        const Eigen::VectorXd own = kicks.impulse(event, before), change = kicks.change_of_rates(event, before);
+        if (change.size() == 0) return own;
+        const Eigen::VectorXd needed = view.at(before).M * change;
+        return own.size() == 0 ? needed : Eigen::VectorXd(own + needed);
     };
     contacts.kicks.passed = [&kicks, at](double t, const double* before, const double* after,
                                          const Eigen::VectorXd& acceleration) {

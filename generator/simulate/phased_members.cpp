@@ -84,6 +84,8 @@ Contacts PhasedMembers::contacts_at(const Start& start) {
     contacts.situation = guarded(std::move(contacts.situation));
     contacts.kicks.impulse = guarded(std::move(contacts.kicks.impulse));
     contacts.kicks.passed = guarded(std::move(contacts.kicks.passed));
+    if (contacts.kicks.set) contacts.kicks.set = guarded(std::move(contacts.kicks.set));
+    if (contacts.kicks.refusal) contacts.kicks.refusal = guarded(std::move(contacts.kicks.refusal));
     if (contacts.kicks.speeds) contacts.kicks.speeds = guarded(std::move(contacts.kicks.speeds));
     return contacts;
 }
@@ -91,11 +93,13 @@ Contacts PhasedMembers::contacts_at(const Start& start) {
 Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state) {
     const std::size_t n = static_cast<std::size_t>(derived_.mechanism.size()), width = state.size();
     const auto middle = state.begin() + static_cast<std::ptrdiff_t>(n);
+    const auto states = static_cast<std::ptrdiff_t>(derived_.mechanism.states.size());
     const Start start{.parameters = member.parameters,
                       .t = member.start,
                       .q = {state.begin(), middle},
                       .qdot = std::vector<double>(n),
-                      .speeds = {}};
+                      .speeds = {},
+                      .states = {state.end() - states, state.end()}};
     const State<double> first{.parameters = member.parameters,
                               .t = member.start,
                               .q = start.q,
@@ -111,10 +115,16 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
                       });
     const LoadedMode& free = modes({});
     Contacts contacts = contacts_at(start);
+    const auto integrated = [&](double t, const double* y) {
+        return as_integrated(contacts.kicks, t, {y, y + 2 * n + states});
+    };
     contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
-        const std::vector<double> a = as_integrated(contacts.kicks, t, {before, before + 2 * n}),
-                                  b = as_integrated(contacts.kicks, t, {after, after + 2 * n});
-        account.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
+        account.drift.jump(free.module.table(), free.par, t, integrated(t, before).data(),
+                           integrated(t, after).data(), jump);
+    };
+    contacts.kicks.on_set = [&](double t, const double* before, const double* after) {
+        account.drift.set(free.module.table(), free.par, t, integrated(t, before).data(),
+                          integrated(t, after).data());
     };
     Options options = options_;
     options.start = member.start;

@@ -110,13 +110,14 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
     for (int i = 0; i < m.size(); ++i) value(m.q_start[i]);
     for (int i = 0; i < m.size(); ++i) value(m.qdot_start[i]);
     for (const Mechanism::Speed& speed : m.speeds) value(speed.start.value_or(0));
+    for (const Mechanism::State& z : m.states) value(z.start);
     value(m.run.start.value_or(0));
     value(m.run.duration.value_or(10));
     std::vector<Quad> out(wanted.size());
     Tape<Quad>(program, wanted, start.parameters)(0, nullptr, nullptr, out.data());
     const auto n = static_cast<std::ptrdiff_t>(m.size()), s = static_cast<std::ptrdiff_t>(m.speeds.size());
     std::vector<Quad> q(out.begin(), out.begin() + n), u(out.begin() + n, out.begin() + 2 * n),
-        speeds(out.begin() + 2 * n, out.begin() + 2 * n + s);
+        speeds(out.begin() + 2 * n, out.begin() + 2 * n + s), states(out.begin() + 2 * n + s, out.end() - 2);
     start.t = out[out.size() - 2];
     start.duration = duration ? quad_of_decimal(*duration) : out.back();
 
@@ -154,6 +155,7 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
         Tape<Quad>(forms, nodes, start.parameters)(start.t, q.data(), u.data(), values.data());
         start.state.insert(start.state.end(), values.begin(), values.end());
     }
+    start.state.insert(start.state.end(), states.begin(), states.end());
     return start;
 }
 

@@ -50,6 +50,8 @@ public:
             values_.push_back(t);
             add(state.first(n));
             add(std::span(rate).first(n));
+            add(state.subspan(static_cast<std::size_t>(table.coordinates + table.speeds) - m_.states.size(),
+                              m_.states.size()));
             add(all);
             values_.push_back(energy[2]);
             add(out);
@@ -114,10 +116,31 @@ std::vector<EndedEvent> ended_events(const PhasedMotion& motion, const Mechanism
     return result;
 }
 
+bool has_records(const Mechanism& m) {
+    return std::any_of(m.event_actions.begin(), m.event_actions.end(),
+                       [](const Mechanism::EventAction& event) { return !event.record.empty(); });
+}
+
+MotionTable rows_at_events(const PhasedMotion& motion, const Derived& d, LoadedModes& modes,
+                           const JointReactions* reactions, const State<double>& first) {
+    MotionTable table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
+    RowWriter writer(table.values, d.mechanism, reactions, first);
+    for (const Phase& phase : motion.phases)
+        for (const EventRecord& event : phase.motion.events) {
+            Phase one{.closed = phase.closed, .motion = {}};
+            one.motion.dimension = phase.motion.dimension;
+            one.motion.times = {event.time};
+            one.motion.states = event.state;
+            writer.add(one, modes(phase.closed), 1);
+        }
+    return table;
+}
+
 std::vector<std::string> row_columns(const Mechanism& m, const Program& program, const JointReactions* reactions) {
     std::vector<std::string> columns{"t"};
     for (const GiNaC::symbol& q : m.q) columns.push_back(q.get_name());
     for (const GiNaC::symbol& q : m.q) columns.push_back(q.get_name() + "'");
+    for (const Mechanism::State& z : m.states) columns.push_back(z.derivative[0].get_name());
     for (const auto* list : {&m.constraints, &m.redundant})
         for (const Mechanism::Constraint& c : *list) columns.push_back(c.multiplier.get_name());
     for (const Mechanism::Unilateral& c : m.unilateral) columns.push_back(c.gap.multiplier.get_name());

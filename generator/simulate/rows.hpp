@@ -17,8 +17,8 @@ struct MotionTable {
     double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
 };
 
-/// t, coordinates, rates (theta1'), multipliers of constraints, then of unilateral contacts (0 while open),
-/// energy, outputs, the scene's own speeds and, if `reactions` is not null, JOINT.fx … JOINT.mz.
+/// t, coordinates, rates (theta1'), first-order states, multipliers of constraints, then of unilateral contacts (0
+/// while open), energy, outputs, the scene's own speeds and, if `reactions` is not null, JOINT.fx … JOINT.mz.
 std::vector<std::string> row_columns(const Mechanism& mechanism, const Program& program,
                                      const JointReactions* reactions);
 
@@ -29,6 +29,13 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
 /// the equations change, there is one. Reactions are evaluated with the parameters of `first`.
 MotionTable rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
                     const JointReactions* reactions, const State<double>& first);
+
+/// Whether an event of the scene tells values.
+bool has_records(const Mechanism& mechanism);
+
+/// The table of the same columns with a row for each event, in the order of the motion, in the state before it.
+MotionTable rows_at_events(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
+                           const JointReactions* reactions, const State<double>& first);
 
 /// An event whose expression has a value at a row of a run and none at the next: it ends between these times,
 /// perhaps without a zero, and nothing is found from there on.

@@ -61,6 +61,8 @@ std::optional<StartName> start_name(const Mechanism& m, const Program& program, 
         return StartName{name, Kind::rate, *i};
     if (const auto i = at(m.speeds, [](const Mechanism::Speed& s) { return s.u.get_name(); }))
         return StartName{name, Kind::speed, *i};
+    if (const auto i = at(m.states, [](const Mechanism::State& z) { return z.derivative[0].get_name(); }))
+        return StartName{name, Kind::state, *i};
     return std::nullopt;
 }
 

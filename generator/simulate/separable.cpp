@@ -28,6 +28,7 @@ std::optional<std::string> rate_in(const std::optional<std::string>& coordinate)
 std::optional<std::string> inseparable(const Derived& d) {
     const Equations& e = d.equations;
     if (!e.speeds_are_rates()) return say("the equations are in generalized speeds");
+    if (!d.mechanism.states.empty()) return say("the scene has first-order states ([states])");
     if (!d.mechanism.constraints.empty() || !d.mechanism.unilateral.empty()) return say("there are constraints");
     if (e.M.rows() == 0 && e.tree) {
         // Where M changes with a coordinate or with t, its derivative stands in f beside rates.

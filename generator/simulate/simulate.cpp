@@ -32,10 +32,13 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
-/// Whether energy was lost: an impact has taken some of it, or an impulse has changed it.
-bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
+/// Whether energy was lost: an impact has taken some of it, or an impulse or a set value has changed it.
+bool is_lossy(const PhasedMotion& motion, const Mechanism& m, const Contacts& contacts) {
     return std::any_of(motion.events.begin(), motion.events.end(),
-                       [](const EventRecord& e) { return !e.impulse.empty(); }) ||
+                       [&](const EventRecord& e) {
+                           return !e.impulse.empty() ||
+                                  !m.event_actions[static_cast<std::size_t>(e.index)].set.empty();
+                       }) ||
            std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
                return e.kind == ContactEvent::Kind::impact &&
                       contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
@@ -98,6 +101,8 @@ public:
         if (wishes_.reactions && has_reactions(run_.mechanism))
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
         std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
+        for (const Mechanism::EventAction& event : run_.mechanism.event_actions)
+            check_columns(columns, event.record);
         columns.erase(columns.begin());  // t is the other axis of a picture
         check_columns(columns, wishes_.columns);
         quick_times_ = quick_times(free.program, with_held_parameters(start_.parameters, free.program),
@@ -105,6 +110,13 @@ public:
         modes.shorten_steps(quick_times_);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
+        };
+        contacts_.kicks.on_set = [&](double t, const double* before, const double* after) {
+            if (watch.is_over) return;
+            const std::size_t size = 2 * run_.mechanism.q.size() + run_.mechanism.states.size();
+            const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + size}),
+                                      b = as_integrated(contacts_.kicks, t, {after, after + size});
+            watch.drift.set(free.module.table(), free.par, t, a.data(), b.data());
         };
         try_methods(modes);
         integrate(modes);
@@ -167,9 +179,9 @@ private:
 
     void look_at_jump(Watch& watch, const LoadedMode& free, double t, const double* before, const double* after,
                       double jump) const {
-        const int n = run_.mechanism.size();
-        const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + 2 * n}),
-                                  b = as_integrated(contacts_.kicks, t, {after, after + 2 * n});
+        const std::size_t size = 2 * run_.mechanism.q.size() + run_.mechanism.states.size();
+        const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + size}),
+                                  b = as_integrated(contacts_.kicks, t, {after, after + size});
         watch.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
     }
 
@@ -260,7 +272,7 @@ private:
 
     void settle_account(const Watch& watch) {
         EnergyAccount& account = run_.energy;
-        account.conserved = energy_.conserved && !is_lossy(run_.motion, contacts_);
+        account.conserved = energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_);
         account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
         account.drift = watch.drift.energy();
         account.balance = watch.drift.balance();
@@ -331,16 +343,19 @@ private:
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
         const auto end = run_.motion.final_state();
         run_.final_coordinates.assign(end.begin(), end.begin() + m.size());
+        const std::size_t other = free.program.speeds.size() - m.states.size();
         if (!m.speeds.empty())
-            for (std::size_t k = 0; k < free.program.speeds.size(); ++k) {
+            for (std::size_t k = 0; k < other; ++k) {
                 run_.speeds.push_back(free.program.speeds[k].name);
                 run_.final_speeds.push_back(end[m.q.size() + k]);
             }
+        for (std::size_t k = 0; k < m.states.size(); ++k) run_.final_states.push_back(end[m.q.size() + other + k]);
         std::vector<double> rates(end.size());
         free.contact.system.rhs(run_.motion.final_time(), end.data(), rates.data());
         run_.final_rates.assign(rates.begin(), rates.begin() + m.size());
         run_.contacts = contacts_.names;
         run_.rows = rows_of(run_.motion, run_, modes, reactions(), first_);
+        if (has_records(m)) run_.event_rows = rows_at_events(run_.motion, run_, modes, reactions(), first_);
         for (const EndedEvent& one : ended_events(run_.motion, m, modes))
             run_.warn(
                 "not_a_number",

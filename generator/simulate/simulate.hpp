@@ -54,6 +54,9 @@ struct Run : Derived {
     Solver solver = {};
     std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds only if the scene has its own
     std::vector<double> final_coordinates = {}, final_rates = {}, final_speeds = {};
+    MotionTable event_rows =
+        {};  ///< a row for each event of `motion`, if any event of the scene records something
+    std::vector<double> final_states = {};   ///< of the scene's first-order states, in the order of the scene
     std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
     /// A change of a sign in the right-hand side: of |x|, min, max, sign.
     struct Side {

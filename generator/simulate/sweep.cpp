@@ -22,13 +22,14 @@ std::vector<std::string> end_columns(const Sweep& s) {
     columns.insert(columns.end(), s.coordinates.begin(), s.coordinates.end());
     for (const std::string& q : s.coordinates) columns.push_back(q + "'");
     columns.insert(columns.end(), s.speeds.begin(), s.speeds.end());
+    columns.insert(columns.end(), s.states.begin(), s.states.end());
     columns.emplace_back(s.conserved ? "energy_drift" : "work_balance");
     return columns;
 }
 
 std::vector<double> end_values(const SweptMotion& m) {
     std::vector<double> values{m.time};
-    for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds})
+    for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds, &m.final_states})
         values.insert(values.end(), part->begin(), part->end());
     values.push_back(m.drift);
     return values;
@@ -41,6 +42,7 @@ std::vector<std::string> along_columns(const Sweep& s) {
         if (s.speeds.empty())
             for (const std::string& q : s.coordinates) columns.push_back(statistic + "_" + q + "'");
         for (const std::string& u : s.speeds) columns.push_back(statistic + "_" + u);
+        for (const std::string& z : s.states) columns.push_back(statistic + "_" + z);
     }
     return columns;
 }

@@ -15,7 +15,8 @@ namespace alembert {
 struct SweptMotion {
     std::vector<double> varied;  ///< in the order of Grid::names
     std::vector<double> final_coordinates, final_rates,
-        final_speeds;  ///< NaN if the motion did not begin; speeds only of scenes that have their own
+        final_speeds,  ///< NaN if the motion did not begin; speeds only of scenes that have their own
+        final_states;  ///< of first-order states; NaN in the same case
     std::vector<double> along = {};  ///< in the order of along_columns; NaN in the same case
     double time = 0, drift = 0;      ///< NaN in the same case; `drift` is that of the energy, or the work balance
     long steps = 0, rejected = 0, evaluations = 0;
@@ -25,7 +26,7 @@ struct SweptMotion {
 
 struct Sweep : Derived {
     Grid grid = {};
-    std::vector<std::string> coordinates = {}, speeds = {};
+    std::vector<std::string> coordinates = {}, speeds = {}, states = {};
     std::vector<std::string> along = {};    ///< of min, max, mean: what is known along each motion
     std::vector<SweptMotion> members = {};  ///< in the order of Grid::point
     bool conserved = true;  ///< whether the energy is conserved; if not, `drift` is that of E − E₀ − W
@@ -49,8 +50,8 @@ struct SweepPart {
 /// are cores. Throws what Sweeper throws; std::invalid_argument if it is negative.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
-/// The names of the values at the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and
-/// energy_drift or work_balance.
+/// The names of the values at the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds,
+/// its first-order states, and energy_drift or work_balance.
 std::vector<std::string> end_columns(const Sweep& sweep);
 /// The values under these names.
 std::vector<double> end_values(const SweptMotion& motion);

@@ -34,7 +34,8 @@ std::vector<SweptMotion> motions_of(std::string_view bytes, const Sweep& s, Swee
         m.final_coordinates.resize(s.coordinates.size());
         m.final_rates.resize(s.coordinates.size());
         m.final_speeds.resize(s.speeds.size());
-        for (auto* const values : {&m.final_coordinates, &m.final_rates, &m.final_speeds})
+        m.final_states.resize(s.states.size());
+        for (auto* const values : {&m.final_coordinates, &m.final_rates, &m.final_speeds, &m.final_states})
             for (double& value : *values) value = in.take<double>();
         m.drift = in.take<double>();
         m.along.resize(along);

@@ -78,8 +78,9 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     s_.conserved = energy_of(m).conserved && !has_jumps(m);
     program_ = with_signs_told(s_, lowered(s_).program);
     for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
-    if (!m.speeds.empty())
-        for (const Quantity& u : program_.speeds) s_.speeds.push_back(u.name);
+    const std::size_t others = program_.speeds.size() - m.states.size();
+    for (std::size_t k = 0; k < others && !m.speeds.empty(); ++k) s_.speeds.push_back(program_.speeds[k].name);
+    for (const Mechanism::State& z : m.states) s_.states.push_back(z.derivative[0].get_name());
     check_columns(end_columns(s_), wishes.columns);
     const bool phased = !program_.singular && is_phased(m, program_);
     options_ = phased ? options_of_phased() : options_for();
@@ -284,6 +285,7 @@ SweptMotion Sweeper::refused(const std::string& why) const {
             .final_coordinates = none,
             .final_rates = none,
             .final_speeds = std::vector<double>(s_.speeds.size(), nothing),
+            .final_states = std::vector<double>(s_.states.size(), nothing),
             .along = std::vector<double>(along_columns(s_).size(), nothing),
             .time = nothing,
             .drift = nothing,
@@ -296,8 +298,11 @@ SweptMotion Sweeper::motion_of(const Member& member, const Outcome& outcome, std
     SweptMotion m{.varied = {},  // when it is kept
                   .final_coordinates = {state.begin(), state.begin() + n},
                   .final_rates = rates_at(program_, ensemble_->module, member, outcome.time, state),
-                  .final_speeds = {}};
-    if (!s_.speeds.empty()) m.final_speeds.assign(state.begin() + n, state.end());
+                  .final_speeds = {},
+                  .final_states = {state.end() - static_cast<std::ptrdiff_t>(s_.states.size()), state.end()}};
+    if (!s_.speeds.empty())
+        m.final_speeds.assign(state.begin() + n,
+                              state.begin() + n + static_cast<std::ptrdiff_t>(s_.speeds.size()));
     for (const std::string& statistic : s_.along) {
         const std::size_t block = statistic == "min" ? 0 : statistic == "max" ? 1 : 2;
         const auto first = outcome.along.begin() + static_cast<std::ptrdiff_t>(block * state.size());

@@ -241,7 +241,7 @@ LyapunovExponents lyapunov_exponents(Scene scene, const ExponentOptions& options
     argument::need_positive("duration", options.duration);
     argument::need_positive("tolerance", options.tolerance);
     LyapunovExponents result{.title = scene.title};
-    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at});
+    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true});
     result.warnings = d.warnings;
     check_smooth(d.mechanism);
     Start start = start_of(d.mechanism, options.at);

@@ -194,6 +194,7 @@ void Local::find_point(const ExactOverrides& exact_at) {
     point.u = start.qdot;
     if (!residuals.rates_are_speeds) {
         const State<double> in_use = state_of(near.start, m, equations);
+        point.u.insert(point.u.end(), start.states.begin(), start.states.end());
         Program forms = begun(m);
         const std::vector<int> nodes = lower_expressions(forms, m, equations.form);
         const std::vector<Expansion> in_rates = interpret(forms, state_at(point, nullptr, {}));

@@ -151,13 +151,13 @@ double terms_of_determinant(const SymbolicPolynomial& p) {
 
 /// By the equations if these are in the rates, else by Routh's.
 std::optional<SymbolicPencil> pencil_of(const Mechanism& m, const Equations& equations, const std::vector<ex>& q0,
-                                        const std::vector<ex>& u0) {
-    if (equations.speeds_are_rates()) return symbolic_pencil(m, equations, q0, u0);
+                                        const std::vector<ex>& u0, const std::vector<ex>& z0) {
+    if (equations.speeds_are_rates()) return symbolic_pencil(m, equations, q0, u0, z0);
     if (obstacle_to_routh(m)) return {};
     const Equations in_rates = routh(m);
     Mechanism own = m;
     own.z = in_rates.z;
-    return symbolic_pencil(own, in_rates, q0, u0);
+    return symbolic_pencil(own, in_rates, q0, u0, z0);
 }
 
 /// Negates the polynomial if its first coefficient is negative at the values of the parameters. False if its sign
@@ -176,17 +176,21 @@ bool make_first_positive(SymbolicPolynomial& p, const Local& local) {
 
 void add_conditions(Stability& result, const Local& local, const ExactOverrides& exact_at) {
     const Mechanism& m = local.mechanism;
-    std::vector<ex> q0 = m.q_start, u0 = m.qdot_start;
+    std::vector<ex> q0 = m.q_start, u0 = m.qdot_start, z0;
+    for (const Mechanism::State& z : m.states) z0.push_back(z.start);
     for (const auto& [name, number] : exact_at)
         for (int i = 0; i < m.size(); ++i) {
             if (name == m.q[i].get_name()) q0[i] = constant_value(number);
             if (name == m.q[i].get_name() + "'") u0[i] = constant_value(number);
         }
+    for (const auto& [name, number] : exact_at)
+        for (std::size_t k = 0; k < z0.size(); ++k)
+            if (name == m.states[k].derivative[0].get_name()) z0[k] = constant_value(number);
     // Is the state in use that of the scene? With constraints it is if the scene's obeys them.
     if (m.constraints.empty())
         for (int i = 0; i < m.size(); ++i)
             if (m.q_is_guess[i] || m.qdot_is_guess[i]) return;
-    const auto found = pencil_of(m, local.equations, q0, u0);
+    const auto found = pencil_of(m, local.equations, q0, u0, z0);
     // A state that is steady for these values of the parameters alone has no conditions in the parameters.
     if (!found || !found->stays) return;
     const int zeros =
@@ -194,6 +198,11 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
     const auto degree = static_cast<std::size_t>(local.split.q.size() + local.split.u.size());
     SymbolicPolynomial p = characteristic(found->S2, found->S1, found->S0, zeros);
     if (p.size() < 2 || p.size() - 1 + static_cast<std::size_t>(zeros) != degree) return;
+    bool are_neutral = false;  // zero roots of the steady motions beside this one
+    while (result.theorem == StabilityTheorem::malkin && p.size() > 2 && p.back().normal().is_zero()) {
+        p.pop_back();
+        are_neutral = true;
+    }
     if (terms_of_determinant(p) > most_terms || !make_first_positive(p, local)) return;
     std::vector<ex> positive;
     for (const MassElement& body : m.masses)
@@ -207,9 +216,10 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
     const bool is_first = result.theorem == StabilityTheorem::first_approximation ||
                           result.theorem == StabilityTheorem::hurwitz ||
                           result.theorem == StabilityTheorem::kelvin_chetaev;
-    result.conditions_for = odd_vanish ? say("distinct frequencies in the first approximation")
-                            : is_first ? say("asymptotic stability")
-                                       : say("asymptotic stability in the first approximation");
+    result.conditions_for = odd_vanish    ? say("distinct frequencies in the first approximation")
+                            : are_neutral ? say("negative real parts of all other eigenvalues")
+                            : is_first    ? say("asymptotic stability")
+                                          : say("asymptotic stability in the first approximation");
 }
 
 }  // namespace alembert

@@ -114,7 +114,8 @@ Spectra::Spectra(Scene scene, const StabilityOptions& options, const std::vector
         return;
     }
     const bool periodic = options.period > 0 || scene.simulation.period;
-    const auto d = std::make_shared<const Derived>(derived(std::move(scene), {.by = options.by}));
+    const auto d =
+        std::make_shared<const Derived>(derived(std::move(scene), {.by = options.by, .with_states = true}));
     need_given_normal_forces(d->mechanism, "stability");
     if (periodic)
         take_motion(d, options, all(middle));

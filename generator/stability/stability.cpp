@@ -312,7 +312,7 @@ Stability stability_of_periodic(const Derived& d, const StabilityOptions& option
 /// The verdict by the period that the equations have by how they are written; nothing if they have none, or no
 /// motion of that period is found.
 std::optional<Stability> by_own_period(const Scene& scene, StabilityOptions options) try {
-    const Derived d = derived(scene, {.by = options.by, .at = options.at});
+    const Derived d = derived(scene, {.by = options.by, .at = options.at, .with_states = true});
     const std::optional<double> period = own_period(d, start_of(d.mechanism, options.at));
     if (!period) return {};
     options.period = *period;
@@ -436,7 +436,8 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
             "[polynomial] or a periodic motion"));
     if (scene.polynomial) return stability_of_polynomial(scene, options);
     if (periodic)
-        return stability_of_periodic(derived(std::move(scene), {.by = options.by, .at = options.at}), options);
+        return stability_of_periodic(
+            derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true}), options);
     Stability result{.title = scene.title};
     LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
     try {

@@ -63,6 +63,7 @@ class Truth:
                 value = entry["value"] if isinstance(entry, dict) else entry
                 parameters[name] = mpf(value) * (1 + mpf(rng.uniform(-0.02, 0.02)))
             start = {name + dot: mpf(state[name + dot]) + mpf(rng.uniform(-0.02, 0.02)) for name in names for dot in ("", "'")}
+            start.update({name: mpf(state[name]) + mpf(rng.uniform(-0.02, 0.02)) for name in scene.get("states", {})})
             time = mpf(rng.uniform(0, 0.05)) if scene.get("inputs") else mpf(rng.uniform(0, 2))
             held = on_constraints(scene, start, parameters, time)
             if held is None:

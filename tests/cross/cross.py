@@ -65,13 +65,15 @@ class Examination:
         self.options, self.scene, self.seed, self.counts = options, scene, seed, counts
         self.rng = random.Random(seed * 7919 + 1)
         self.q = coordinate_names(scene)
+        self.z = list(scene.get("states", {}))
         folder = os.path.join(options.folder, f"work-{os.getpid()}")
         shutil.rmtree(folder, ignore_errors=True)
         self.door = doors.Door(options.program, folder, scenes.text(scene))
 
     def all(self):
         self.start = self._ask("eval", "eval")
-        self.state = {**self.start["coordinates"], **{n + "'": v for n, v in self.start["rates"].items()}}
+        self.state = {**self.start["coordinates"], **{n + "'": v for n, v in self.start["rates"].items()},
+                      **self.start.get("states", {})}
         for part in (self.states, self.motions, self.claims):
             if part.__name__ in self.options.only:
                 part()
@@ -134,7 +136,7 @@ class Examination:
                     if no.code == 3 and formalism and not "error" in str(no)[:8]:
                         continue
                     raise Failure(way, f"ends with {no.code}: {no}") from None
-                self._compare(way, told["accelerations"], values, allowed)
+                self._compare(way, {**told["accelerations"], **told.get("state_rates", {})}, values, allowed)
 
     def _in_web_assembly(self, _, values, allowed):
         try:
@@ -144,10 +146,10 @@ class Examination:
         self._compare("WebAssembly", told["accelerations"], values, allowed)
 
     def _rates(self, state, values):
-        """State and rate of the emitted functions: (q, q') or (q, u)."""
+        """State of the emitted functions: (q, q', z)."""
         if "speeds" in self.scene:
             return None
-        return [state[q] for q in self.q] + [state[q + "'"] for q in self.q]
+        return [state[q] for q in self.q] + [state[q + "'"] for q in self.q] + [state[z] for z in self.z]
 
     def _emitted(self, expected):
         if "speeds" in self.scene or self.scene.get("unilateral") or self.scene.get("friction"):
@@ -165,7 +167,7 @@ class Examination:
     def _rows(self, way, results, expected, more=1.0):
         """Rates row by row; `more` is how much coarser the numbers are than doubles."""
         for (_, values, allowed), result in zip(expected, results):
-            self._compare(way, dict(zip(self.q, result[len(self.q):])), values, more * allowed)
+            self._compare(way, dict(zip(self.q + self.z, result[len(self.q):])), values, more * allowed)
 
     def _by_other_ways(self, rows, expected):
         """Floats, headers of two systems in one program, JavaScript, Systems of Python."""
@@ -192,10 +194,10 @@ class Examination:
         version = self.rng.choice([2, 3])
         way = f"model exchange {version}"
         try:
-            result = self.door.exchange(version, 2 * len(self.q))
+            result = self.door.exchange(version, 2 * len(self.q) + len(self.z))
         except (Refused, doors.UnitFailed) as no:
             raise Failure(way, str(no)) from None
-        self._compare(way, dict(zip(self.q, result[len(self.q):])), values, allowed)
+        self._compare(way, dict(zip(self.q + self.z, result[len(self.q):])), values, allowed)
 
     # -- motions
 
@@ -218,9 +220,9 @@ class Examination:
             ways += [("--code compiled", lambda: self.door.simulate("--code", "compiled"))]
         if not self.scene.get("unilateral") and not self.scene.get("friction") and self.options.compile(self.rng):
             version, steps = self.rng.choice([2, 3]), self.rng.choice([1, 7, 40])
-            ways += [(f"fmu {version}", lambda: self.door.unit(version, self.q, duration, tolerance, steps))]
+            ways += [(f"fmu {version}", lambda: self.door.unit(version, self.q, duration, tolerance, steps, self.z))]
             if not pieces and "speeds" not in self.scene:
-                ways += [("standalone C", lambda: self.door.standalone(self.q, duration, tolerance))]
+                ways += [("standalone C", lambda: self.door.standalone(self.q, duration, tolerance, self.z))]
         if self.options.package and self.rng.random() < 0.3:
             ways += [("Python", lambda: self.door.in_python(self.options.package))]
         loose = None

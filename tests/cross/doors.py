@@ -174,7 +174,7 @@ int main() {{
             raise Refused(4, row["status"])
         return {"state": _end(row["final"])}
 
-    def unit(self, version, coordinates, duration, tolerance, steps):
+    def unit(self, version, coordinates, duration, tolerance, steps, states=()):
         path = os.path.join(self.folder, f"scene{version}.fmu")
         self.run(self.program, "fmu", self.scene, "-o", path, "--fmi", str(version))
         unit = Unit(path, version, tolerance)
@@ -183,7 +183,8 @@ int main() {{
             to = duration * k / steps
             unit.step(at, to - at)
             at = to
-        return {"state": {name + dot: unit.get(f"der({name})" if dot else name) for name in coordinates for dot in ("", "'")}}
+        return {"state": {**{name + dot: unit.get(f"der({name})" if dot else name) for name in coordinates for dot in ("", "'")},
+                          **{name: unit.get(name) for name in states}}}
 
     def exchange(self, version, size):
         """The rates of the start by model exchange."""
@@ -192,14 +193,14 @@ int main() {{
             self.run(self.program, "fmu", self.scene, "-o", path, "--fmi", str(version))
         return Unit(path, version, 1e-9, exchange=True).derivatives(size)
 
-    def standalone(self, coordinates, duration, tolerance):
+    def standalone(self, coordinates, duration, tolerance, states=()):
         """The C program of the scene."""
         out = os.path.join(self.folder, "standalone")
         self.run(self.program, "emit", self.scene, "-o", out, "--language", "c", "--standalone")
         self.run("env", "-C", out, "cc", "-std=c99", "-O1", "scene_main.c", "scene.c", "-lm", "-o", "main")
         last = self.run(os.path.join(out, "main"), repr(duration), repr(tolerance), "1").strip().splitlines()[-1]
         values = [float(x) for x in last.replace(",", " ").split()][1:]
-        return {"state": dict(zip(list(coordinates) + [c + "'" for c in coordinates], values))}
+        return {"state": dict(zip([*coordinates, *(c + "'" for c in coordinates), *states], values))}
 
     def in_python(self, package, *options):
         """Scene.simulate of the Python package, in a process of its own."""
@@ -220,4 +221,4 @@ int main() {{
 
 
 def _end(final):
-    return {**final["coordinates"], **{name + "'": value for name, value in final["rates"].items()}}
+    return {**final["coordinates"], **{name + "'": value for name, value in final["rates"].items()}, **final.get("states", {})}

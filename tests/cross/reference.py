@@ -107,6 +107,8 @@ class Reference:
             names[name, 1] = Jet.variable(self.rates[i], n + 1 + i)
         for name, value in (parameters or {}).items():
             names[name, 0] = Jet(mpf(value))
+        for name in scene.get("states", {}):
+            names[name, 0] = Jet(mpf(state[name]))
         self.accelerations = self.multipliers = None
         self._place()
 
@@ -331,7 +333,7 @@ class Reference:
         return [[x.first.get(i, mpf(0)) for x in point] for i in range(self.n)]
 
     def solve(self):
-        """Accelerations, and multipliers of the constraints that are named."""
+        """Accelerations, the rates of first-order states, and multipliers of the constraints that are named."""
         n = self.n
         matrix, loads = mpmath.zeros(n), [mpf(0)] * n
         for weight, a, b in self.masses:
@@ -375,7 +377,8 @@ class Reference:
             if constraint["name"] in self.multipliers:
                 name = constraint.get("multiplier", "lambda_" + constraint["name"])
                 self.names[name, 0] = Jet(self.multipliers[constraint["name"]])
-        return dict(zip(self.q, self.accelerations))
+        return {**dict(zip(self.q, self.accelerations)),
+                **{name: self.of(entry["rate"]).value for name, entry in self.scene.get("states", {}).items()}}
 
     def _gravity(self, _, loads):
         pull = self.vector(self.scene.get("gravity", [0, 0]))

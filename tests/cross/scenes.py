@@ -369,6 +369,22 @@ def _events(d):
     d.add("event", **event)
 
 
+def _states(d, rng):
+    """A first-order state that follows a coordinate and acts on it, by draws of their own."""
+    near = [name for name, e in d.scene["coordinates"].items() if abs(e.get("initial", e.get("guess", 1))) < 10]
+    if not near or rng.random() >= 0.35:
+        return
+    name = rng.choice(near)
+    rate = rng.choice([f"{name}' - {number(rng, 0.2, 2)}*z1", f"({name} - z1)/{number(rng, 0.1, 0.8)}",
+                       f"{number(rng, 0.1, 1)}*sin({name}) - {number(rng, 0.1, 1)}*z1*{name}'"])
+    d.scene["states"] = {"z1": {"rate": rate, "initial": number(rng, -0.5, 0.5)}}
+    if rng.random() < 0.4:
+        d.scene["states"]["z2"] = {"rate": f"z1 - {number(rng, 0.5, 3)}*z2"}
+    forces = d.scene.setdefault("forces", {})
+    last = list(d.scene["states"])[-1]
+    forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*{last}"
+
+
 def make(seed):
     """(kind, scene) of a seed."""
     d = Draft(seed)
@@ -378,6 +394,7 @@ def make(seed):
         _loads(d)
         _speeds(d)
         _events(d)
+        _states(d, random.Random(seed * 31 + 5))
     d.scene["simulation"] = {"duration": number(d.rng, 1, 4), "tolerance": 10.0 ** -d.rng.choice([7, 9, 10, 12])}
     for table in ("coordinates", "parameters"):
         if not d.scene[table]:

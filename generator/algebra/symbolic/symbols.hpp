@@ -21,6 +21,7 @@ struct SymbolInfo {
         input,       ///< a given function of time; order counts its derivatives
         coordinate,  ///< order 0: q, 1: q', 2: q''
         speed,       ///< a generalized speed; order 0: u, 1: u'
+        state,       ///< a first-order state; order 0: z, 1: z', 2: z''
         definition,  ///< a name of the scene's [definitions], kept as a symbol
         function,    ///< a function of the scene's [functions]; stands only in its calls (unspecified.hpp)
         other,       ///< multipliers, claim unknowns, intermediate symbols

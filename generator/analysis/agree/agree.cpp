@@ -68,6 +68,8 @@ std::optional<long double> residual(const EquationSystem& a, const EquationSyste
         state.q.push_back(turn(random));
         state.qdot.push_back(turn(random));
     }
+    state.qdot.resize(static_cast<std::size_t>(a.n));
+    for (int k = 0; k < a.states; ++k) state.qdot.push_back(turn(random));
     State<long double> plain = state;  // the state with q' in place of u
     for (const EquationSystem* s : {&a, &b}) {
         if (s->is_plain()) continue;

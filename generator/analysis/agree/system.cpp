@@ -12,9 +12,10 @@ EquationSystem system_of(const Equations& e, const Mechanism& m, const std::vect
     none.z = m.z;
     EquationSystem s;
     s.formalism = e.formalism;
-    s.program = lower(m, e, none);
+    s.program = lower(m, e, none, {.states_are_given = true});
     s.n = m.size();
     s.speeds = e.size();
+    s.states = static_cast<int>(m.states.size());
     s.mass = s.program.nodes_of(Group::mass);
     s.forcing = s.program.nodes_of(Group::forcing);
     s.gamma = s.program.nodes_of(Group::gamma);

@@ -22,6 +22,7 @@ struct EquationSystem {
     std::string formalism;
     Program program;
     int n = 0, speeds = 0;            ///< coordinates, speeds
+    int states = 0;                   ///< first-order states, which are given
     std::vector<int> mass, forcing;   ///< mass is the lower triangle
     std::vector<std::vector<int>> A;  ///< the rows in terms of speeds
     std::vector<int> gamma, rates,

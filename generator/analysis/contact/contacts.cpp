@@ -82,7 +82,7 @@ Program view_of(const Mechanism& mechanism) {
     closed.event_actions.clear();
     Energy energy = energy_of(mechanism);
     energy.power = 0;  // it contains multipliers
-    Program program = lower(closed, routh(closed), energy);
+    Program program = lower(closed, routh(closed), energy, {.states_are_given = true});
     const auto is_wanted = [](const Root& root) {
         for (const Group group : {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position,
                                   Group::velocity, Group::slip, Group::stick_bound, Group::friction})

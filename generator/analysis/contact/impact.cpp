@@ -30,7 +30,7 @@ Program program_of(Mechanism m) {
     m.event_actions.clear();
     Energy energy = energy_of(m);
     energy.power = 0;
-    return lower(m, routh(m), energy);
+    return lower(m, routh(m), energy, {.states_are_given = true});
 }
 
 /// The numbers at the start that the law of impact needs.

@@ -47,6 +47,7 @@ public:
         gaps();
         frictions();
         constraints();
+        states();
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
         for (int i = 0; i < e_.size(); ++i)
             result_.rows.push_back(symbol_of(e_.speeds_are_rates() ? m_.q[i] : e_.u[i]));
@@ -317,6 +318,14 @@ private:
         }
     }
 
+    void states() {
+        for (const Mechanism::State& z : m_.states) {
+            const std::size_t k = result_.states.size();
+            result_.states.emplace_back(symbol_of(z.derivative[1]), Phrase());
+            write(z.rate, [k](Derivation& d) -> Phrase& { return d.states[k].second; });
+        }
+    }
+
     /// Whether this is a unilateral constraint, which is among the constraints because of its reaction.
     bool is_gap(const Mechanism::Constraint& c) const {
         return std::any_of(m_.unilateral.begin(), m_.unilateral.end(), [&](const Mechanism::Unilateral& contact) {
@@ -351,7 +360,7 @@ private:
         energy.potential = unit_(energy.potential);
         std::vector<ex> others;
         for (const auto& [value, place] : too_long_) others.push_back(unit_(value));
-        const LowerOptions for_reader{.reactions_are_letters = true};
+        const LowerOptions for_reader{.reactions_are_letters = true, .states_are_given = true};
         IntermediateForm form = intermediate_form(lower(m_, e_, energy, for_reader), m_, e_, others);
         if (unit_.any()) {
             for (std::size_t k = 0; k < others.size(); ++k) others[k] = too_long_[k].first;

@@ -37,6 +37,7 @@ struct Derivation {
     std::vector<ReadableEquation> equations;
     std::vector<std::pair<Phrase, Phrase>> abbreviations;  ///< definitions of the scene that stay names in these
     std::vector<Phrase> rows;                           ///< the coordinate or speed to which each equation belongs
+    std::vector<std::pair<Phrase, Phrase>> states;      ///< z' of the scene's first-order states
     std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty if u = q'
     std::vector<Phrase> poles;  ///< where one of these vanishes, the speeds do not determine the rates
     std::vector<std::pair<Phrase, Phrase>> speeds;  ///< speeds chosen by the program: u = N(q,t) q'

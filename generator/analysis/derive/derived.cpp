@@ -22,6 +22,7 @@
 #include "model/formalism/joint_tree.hpp"
 #include "model/formalism/needs.hpp"
 #include "model/formalism/recursive.hpp"
+#include "model/formalism/with_states.hpp"
 #include "model/sample_functions.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/perturbed_tree.hpp"
@@ -128,6 +129,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     if (options.use != Use::shown && d.by.empty()) at_once = recursive_for_large_trees(d.mechanism, options.use);
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     d.mechanism.z = d.equations.z;
+    if (options.with_states) d.equations = with_states(d.equations, d.mechanism);
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
         d.warn(
             "poles",
@@ -147,6 +149,7 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
     const double start = process_seconds();
     Derived again{{.scene = d.scene, .mechanism = std::move(mechanism), .warnings = d.warnings}};
     again.equations = equations_by(by, again.mechanism);
+    if (has_states(d.equations, d.mechanism)) again.equations = with_states(again.equations, again.mechanism);
     again.mechanism.z = again.equations.z;
     again.by = d.by;
     again.sheets = d.sheets;

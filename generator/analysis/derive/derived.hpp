@@ -21,9 +21,10 @@ enum class Use { shown, shown_or_counted, run, asked };
 struct DeriveOptions {
     std::string by = {};  ///< the name of a formalism; if empty, the program chooses
     Use use = Use::shown;
-    bool reactions = false;  ///< whether the reaction of each constraint along each coordinate becomes an output
-    Overrides at = {};       ///< the values at which the bodies are checked
-    bool on_sheets = false;  ///< whether roots of squares are on the sheet of the initial state
+    bool reactions = false;    ///< whether the reaction of each constraint along each coordinate becomes an output
+    Overrides at = {};         ///< the values at which the bodies are checked
+    bool with_states = false;  ///< whether the scene's first-order states are among the speeds of the equations
+    bool on_sheets = false;    ///< whether roots of squares are on the sheet of the initial state
     Coordinates coordinates = Coordinates::needed;
 };
 

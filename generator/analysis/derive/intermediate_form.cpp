@@ -67,7 +67,8 @@ private:
             case Variable::Kind::coordinate:
                 return symbol_of(m_.q[v.index]);
             case Variable::Kind::rate:
-                return symbol_of(e_.u[v.index]);
+                return symbol_of(v.index < m_.size() ? e_.u[v.index]
+                                                     : m_.states[v.index - m_.size()].derivative[0]);
             case Variable::Kind::acceleration:
                 return symbol_of(e_.udot[v.index]);
             case Variable::Kind::unknown:

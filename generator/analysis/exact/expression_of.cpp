@@ -74,7 +74,7 @@ private:
             case Variable::Kind::coordinate:
                 return m_.q[i];
             case Variable::Kind::rate:
-                return m_.qdot[i];
+                return i < m_.q.size() ? m_.qdot[i] : m_.states[i - m_.q.size()].derivative[0];
             case Variable::Kind::acceleration:
                 return m_.qddot[i];
             case Variable::Kind::unknown:

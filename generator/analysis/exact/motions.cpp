@@ -22,7 +22,8 @@ using GiNaC::ex;
 
 namespace {
 
-/// f(q, 0) + Σ λ_k A_k, and the equations of the rates with q' = q'' = 0: all of them vanish at rest.
+/// f(q, 0) + Σ λ_k A_k, the equations of the rates and the rates of the states, with q' = q'' = 0: all of them
+/// vanish at rest.
 std::vector<ex> balance_at_rest(const Mechanism& m, const Equations& e) {
     GiNaC::exmap still;
     for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
@@ -39,6 +40,7 @@ std::vector<ex> balance_at_rest(const Mechanism& m, const Equations& e) {
         balance.push_back(at_rest(m.constraints[k].drift));
         balance.push_back(at_rest(e.gamma[k]));
     }
+    for (const Mechanism::State& state : m.states) balance.push_back(at_rest(state.rate));
     return balance;
 }
 

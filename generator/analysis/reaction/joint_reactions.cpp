@@ -312,7 +312,9 @@ std::vector<Real> values_at(const JointReactions& r, const Program& solved, Stat
     whole.qddot = group(Group::acceleration);
     if (!solved.speeds.empty()) {
         value = interpret(solved, whole);
+        const std::vector<Real> states(whole.qdot.end() - solved.states, whole.qdot.end());
         whole.qdot = group(Group::rate);
+        whole.qdot.insert(whole.qdot.end(), states.begin(), states.end());
         whole.qddot = group(Group::second_rate);
     }
     whole.unknown.assign(r.multipliers.size(), 0);

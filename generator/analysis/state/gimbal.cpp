@@ -45,7 +45,7 @@ std::string way_out(const Scene& scene, const Body& body) {
 
 std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, const State<double>& state) {
     State<double> here = state;
-    here.qdot.assign(m.q.size(), 0);
+    std::fill_n(here.qdot.begin(), m.q.size(), 0);
     Program program = lower_constraints(m);
     for (const MassElement& element : m.masses) {
         if (element.origin.kind != Origin::Kind::body || !element.rotation) continue;

@@ -43,7 +43,7 @@ Place InertiaCheck::place_of(const Origin& origin) const {
 
 std::vector<Diagnostic> InertiaCheck::findings(const State<double>& state) const {
     State<double> here = state;
-    here.qdot.assign(m_.q.size(), 0);
+    std::fill_n(here.qdot.begin(), m_.q.size(), 0);
     const std::vector<double> value = interpret(program_, here);
     std::vector<Diagnostic> found;
     std::size_t next = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "alembert/base/random.hpp"
 #include "base/language/say.hpp"
@@ -66,7 +67,7 @@ private:
         State<double> state = start_.state();
         state.t += near(random);
         for (double& q : state.q) q += 0.3 * near(random);
-        state.qdot.resize(state.q.size());
+        state.qdot.resize(m_.q.size() + m_.states.size());
         for (double& rate : state.qdot) rate = near(random);
         return state;
     }
@@ -86,9 +87,10 @@ private:
         double size = 0;
         for (const double f : F) size += std::abs(f);
         if (!std::isfinite(size) || size == 0) return Acts::unknown;
-        std::fill(state.qdot.begin(), state.qdot.end(), 0);
+        const std::span<double> rates = std::span(state.qdot).first(m_.q.size());
+        std::fill(rates.begin(), rates.end(), 0);
         const Numbers drift = values_of(velocity);
-        for (double& rate : state.qdot) {
+        for (double& rate : rates) {
             rate = 1;
             const Numbers v = values_of(velocity);
             rate = 0;
@@ -229,7 +231,7 @@ private:
             const std::vector<double> way = random_state(random).qdot;
             const auto at = [&](double part) {
                 State<double> state = start_.state();
-                for (std::size_t i = 0; i < way.size(); ++i) state.q[i] += part * way[i];
+                for (std::size_t i = 0; i < state.q.size(); ++i) state.q[i] += part * way[i];
                 const Numbers value = interpret(program, state);
                 std::array<double, 3> result;
                 for (std::size_t k = 0; k < 3; ++k) result[k] = value[static_cast<std::size_t>(nodes[k])];

@@ -102,7 +102,7 @@ Prepared prepared(Scene scene, const Overrides& given, bool on_sheets, Coordinat
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     result.warn(result.scene.warnings);
     OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
-    if (built.mechanism.q.empty() && coordinates == Coordinates::needed)
+    if (built.mechanism.q.empty() && built.mechanism.states.empty() && coordinates == Coordinates::needed)
         throw ModelError(
             say("the scene has no coordinates, so that nothing in it moves; eval --reactions and derive "
                 "--reactions give what its joints bear"));

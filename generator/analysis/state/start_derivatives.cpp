@@ -49,6 +49,7 @@ public:
         values.insert(values.end(), m.qdot_start.begin(), m.qdot_start.end());
         if (has_speeds())
             for (const Mechanism::Speed& speed : m.speeds) values.push_back(*speed.start);
+        for (const Mechanism::State& z : m.states) values.push_back(z.start);
         const std::vector<int> nodes = lower_expressions(expressions, m, values);
         const std::vector<int> by = variables(expressions, Variable::Kind::parameter, parameters_);
         expressions_ = slopes(std::move(expressions), nodes, by,
@@ -73,12 +74,14 @@ public:
     std::vector<double> column(const StartName& name) const {
         Eigen::VectorXd change = Eigen::VectorXd::Zero(2 * n_ + parameters_), speeds;
         const auto index = static_cast<Index>(name.index);
+        Eigen::VectorXd states = Eigen::VectorXd::Zero(static_cast<Index>(m_.states.size()));
         if (has_speeds()) speeds = Eigen::VectorXd::Zero(static_cast<Index>(m_.speeds.size()));
         switch (name.kind) {
             case Kind::parameter:
                 change.head(2 * n_) = expressions_.col(index).head(2 * n_);
                 change[2 * n_ + index] = 1;
-                speeds = expressions_.col(index).tail(speeds.size());
+                speeds = expressions_.col(index).segment(2 * n_, speeds.size());
+                states = expressions_.col(index).tail(states.size());
                 break;
             case Kind::coordinate:
                 change[index] = 1;
@@ -88,6 +91,9 @@ public:
                 break;
             case Kind::speed:
                 speeds[index] = 1;
+                break;
+            case Kind::state:
+                states[index] = 1;
                 break;
         }
         follow(name, change, guesses(m_.q_is_guess, name, Kind::coordinate), 0,
@@ -108,6 +114,7 @@ public:
             const Eigen::VectorXd rates = *form_ * change;
             result.insert(result.end(), rates.data(), rates.data() + rates.size());
         }
+        result.insert(result.end(), states.data(), states.data() + states.size());
         return result;
     }
 

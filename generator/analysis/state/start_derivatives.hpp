@@ -21,7 +21,7 @@
 namespace alembert {
 
 struct StartName {
-    enum class Kind { parameter, coordinate, rate, speed };
+    enum class Kind { parameter, coordinate, rate, speed, state };
     std::string name;
     Kind kind;
     std::size_t index;  ///< among the parameters, the coordinates, the rates or the scene's speeds

@@ -218,7 +218,7 @@ State<double> RestStates::at_random(int set, int start) const {
     State<double> at = start_of(system_.mechanism()).state();
     at.unknown.assign(static_cast<std::size_t>(multipliers_), 0);
     for (std::size_t p = 0; p < at.parameters.size(); ++p) at.parameters[p] = drawn(at.parameters[p], set, p);
-    at.qdot.assign(at.q.size(), 0);
+    std::fill_n(at.qdot.begin(), at.q.size(), 0);
     const auto random = [&](std::size_t i) { return 2 * fraction(1000 * start + set, 100 + i) - 1; };
     for (std::size_t i = 0; start > 0 && i < at.q.size(); ++i) at.q[i] = std::numbers::pi * random(i);
     for (const std::size_t i : cyclic_) at.qdot[i] = 2 * random(50 + i);

@@ -404,7 +404,9 @@ std::vector<ex> accelerations(const Mechanism& m, const Equations& e) {
     std::vector<ex> result = m.explicit_time_derivative(e.h);
     Intermediates::Direction along;
     for (int i = 0; i < m.size(); ++i) along.emplace_back(m.q[i], e.h[i]);
-    for (int k = 0; k < e.size(); ++k) along.emplace_back(e.u[k], e.udot[k]);
+    for (int k = 0; k < e.size(); ++k)
+        if (m.symbols->info(e.u[k]).kind != SymbolInfo::Kind::state)  // these change explicitly
+            along.emplace_back(e.u[k], e.udot[k]);
     const std::vector<ex> moved = m.z->push_forward(e.h, along);
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = m.z->name(result[i] + moved[i]);
     return result;

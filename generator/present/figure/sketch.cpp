@@ -67,7 +67,7 @@ GiNaC::ex exactly(double value) {
 Sketch::Sketch(const Scene& of, const Mechanism& mechanism)
     : scene(of), m(mechanism), formulas(of, mechanism), start(assembled(mechanism)) {
     State<double> state = start.state();
-    state.qdot.assign(m.q.size(), 0.0);
+    std::fill_n(state.qdot.begin(), m.q.size(), 0.0);
     std::mt19937_64 random(1788);
     at_.push_back(state);
     const std::vector<std::array<int, 4>> quaternions = quaternions_of(m);

@@ -126,6 +126,10 @@ Json as_json(const DerivedScene& d, bool dimensions) {
         if (m.speeds.empty()) result["speeds"].push_back(q.get_name() + "'");
     }
     for (const Mechanism::Speed& speed : m.speeds) result["speeds"].push_back(speed.u.get_name());
+    for (const Mechanism::State& z : m.states) result["states"].push_back(z.derivative[0].get_name());
+    for (const auto& [rate, value] : shown.states)
+        result["state_rates"].push_back(
+            {{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
     result["multipliers"] = Json::array();
     for (const auto* list : {&m.constraints, &m.redundant})
         for (const Mechanism::Constraint& c : *list) result["multipliers"].push_back(c.multiplier.get_name());
@@ -177,7 +181,9 @@ Json as_json(const DerivedScene& d, bool dimensions) {
 }
 
 std::string words_before_equations(const DerivedScene& d) {
-    if (d.mechanism.q.empty()) return say("The scene has no coordinates: nothing in it moves.");
+    if (d.mechanism.q.empty())
+        return d.mechanism.states.empty() ? say("The scene has no coordinates: nothing in it moves.")
+                                          : say("The scene has no coordinates.");
     const bool free =
         d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
     return say("Equations of motion ({}{}):", d.shown.title,
@@ -260,6 +266,11 @@ private:
                   Kind::remark);
         add(shown_.equations);
         blocks_.back().with_symbols = !shown_.definitions.empty();
+        if (!shown_.states.empty()) {
+            begin(say("with the rates of the states:"), Kind::equation);
+            add(shown_.states);
+            blocks_.back().with_symbols = !shown_.definitions.empty();
+        }
         if (!shown_.abbreviations.empty()) {
             begin(say("with the scene's definitions:"), Kind::equation);
             add(shown_.abbreviations);

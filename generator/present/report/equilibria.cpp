@@ -27,6 +27,8 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
     Json result;
     result["coordinates"] = by_name_of(m, one.start.q);
     result["rates"] = by_name_of(m, one.start.qdot);
+    for (std::size_t k = 0; k < m.states.size(); ++k)
+        result["states"][m.states[k].derivative[0].get_name()] = one.start.states[k] + 0.0;
     result["moving"] = one.moving;
     if (one.exact) {
         result["exact"] = exact_of(m, *one.exact);
@@ -102,6 +104,11 @@ std::string as_text(const Equilibria& found) {
             if (one.exact && !one.exact->text[i].empty() && one.exact->text[i] != "0")
                 put(page, "  = {}", one.exact->text[i]);
             put(page, "\n");
+        }
+        for (std::size_t k = 0; k < m.states.size(); ++k) {
+            const ShownUnit unit(m.states[k].shown);
+            put(page, "     {} = {:.16g}\n", unit.label(m.states[k].derivative[0].get_name()),
+                unit.value(one.start.states[k] + 0.0));
         }
         if (one.family)
             put(page, "   {}\n",

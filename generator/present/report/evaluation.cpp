@@ -25,6 +25,8 @@ std::size_t widest_name(const Evaluation& e) {
     std::size_t width = 16;
     for (std::size_t i = 0; i < e.coordinates.size(); ++i)
         width = std::max(width, unit_of(e, i).label(e.coordinates[i]).size() + 1);
+    for (std::size_t k = 0; k < e.states.size(); ++k)
+        width = std::max(width, ShownUnit(e.mechanism.states[k].shown).label(e.states[k].first).size() + 1);
     for (const auto& [name, value] : e.multipliers) width = std::max(width, name.size() + 1);
     for (const JointLoad& load : e.joint_loads) width = std::max(width, load.joint.size() + 1);
     return width;
@@ -48,6 +50,10 @@ Json as_json(const Evaluation& e, bool reactions) {
     result["accelerations"] = by_name(e.coordinates, e.accelerations);
     result["speeds"] = e.speeds.empty() ? result["rates"] : object_of(e.speeds);
     result["speed_rates"] = e.speed_rates.empty() ? result["accelerations"] : object_of(e.speed_rates);
+    if (!e.states.empty()) {
+        result["states"] = object_of(e.states);
+        result["state_rates"] = object_of(e.state_rates);
+    }
     result["multipliers"] = object_of(e.multipliers);
     result["kinetic"] = e.kinetic;
     result["potential"] = e.potential;
@@ -88,6 +94,11 @@ std::string as_text(const Evaluation& e) {
         const ShownUnit unit(e.mechanism.speeds[k].shown);
         put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", unit.label(e.speeds[k].first), width,
             unit.value(e.speeds[k].second), unit.value(e.speed_rates[k].second));
+    }
+    for (std::size_t k = 0; k < e.states.size(); ++k) {
+        const ShownUnit unit(e.mechanism.states[k].shown);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", unit.label(e.states[k].first), width,
+            unit.value(e.states[k].second), unit.value(e.state_rates[k].second));
     }
     for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
     for (const auto& [name, side] : e.frictions) say_on(page, "friction {}: {}\n", name, mode_of(e, name, side));

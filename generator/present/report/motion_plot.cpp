@@ -29,6 +29,7 @@ std::vector<PlottedLine> columns_of(const Run& run) {
     };
     for (const std::string& unit : m.units) add(coordinate, unit);
     for (const std::string& unit : m.units) add(rate, per_second(unit));
+    for (const Mechanism::State& z : m.states) add(speed, z.unit);
     for (std::size_t k = 0; k < m.constraints.size() + m.redundant.size() + m.unilateral.size(); ++k)
         add(multiplier, "");
     add(energy, "J");
@@ -47,6 +48,8 @@ ShownUnit shown_unit(const Mechanism& m, std::size_t column, const MotionTable& 
     if (column <= 2 * n) return ShownUnit(m.shown_units[(column - 1) % n]);
     for (const Mechanism::Speed& u : m.speeds)
         if (u.u.get_name() == rows.columns[column]) return ShownUnit(u.shown);
+    for (const Mechanism::State& z : m.states)
+        if (z.derivative[0].get_name() == rows.columns[column]) return ShownUnit(z.shown);
     return ShownUnit({});
 }
 

@@ -88,7 +88,9 @@ public:
         Start start = start_of(e_.mechanism);
         start.t = all.start.t;
         start.q = all.start.q;
-        start.qdot = all.start.qdot;
+        const auto states = all.start.qdot.begin() + static_cast<std::ptrdiff_t>(start.qdot.size());
+        start.qdot.assign(all.start.qdot.begin(), states);
+        start.states.assign(states, all.start.qdot.end());
         start.speeds.clear();
         const State<double> at = state_of(start, e_.mechanism, e_.equations);
         state_ = at.q;

@@ -26,18 +26,36 @@ namespace {
 
 constexpr std::size_t most_lines = 20;
 
-Json json_of(const EventRecord& event, const Mechanism& m) {
+/// What event number `row` of the run records, by name.
+std::vector<std::pair<std::string, double>> recorded_at(const Run& run, std::size_t row) {
+    std::vector<std::pair<std::string, double>> result;
+    const EventRecord& event = run.motion.events[row];
+    for (const std::string& told : run.mechanism.event_actions[static_cast<std::size_t>(event.index)].record) {
+        const auto& columns = run.event_rows.columns;
+        const auto column = std::find(columns.begin(), columns.end(), told) - columns.begin();
+        result.emplace_back(told, run.event_rows.at(row, static_cast<std::size_t>(column)));
+    }
+    return result;
+}
+
+Json json_of(const Run& run, std::size_t row) {
+    const Mechanism& m = run.mechanism;
+    const EventRecord& event = run.motion.events[row];
     const auto k = static_cast<std::size_t>(event.index);
     Json result{{"name", m.events[k].name}, {"time", event.time}};
+    for (const auto& [name, value] : recorded_at(run, row)) result["record"][name] = value;
     if (event.impulse.empty()) return result;
     result["impulses"] = Json::object();
+    const std::vector<GiNaC::ex>& given = m.event_actions[k].impulse;
     for (std::size_t i = 0; i < event.impulse.size(); ++i)
-        if (!m.event_actions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
+        if (given.empty() ? event.impulse[i] != 0 : !given[i].is_zero())
+            result["impulses"][m.q[i].get_name()] = event.impulse[i];
     result["energy_gain"] = event.energy_gain;
     return result;
 }
 
-std::string text_of(const std::vector<EventRecord>& events, const Mechanism& m) {
+std::string text_of_events(const Run& run) {
+    const std::vector<EventRecord>& events = run.motion.events;
     std::string text;
     for (std::size_t i = 0; i < events.size(); ++i) {
         if (i + 1 == most_lines && events.size() > most_lines) {
@@ -45,8 +63,10 @@ std::string text_of(const std::vector<EventRecord>& events, const Mechanism& m) 
             i = events.size() - 1;
         }
         const EventRecord& event = events[i];
-        text += say("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name,
-                    event.time, event.impulse.empty() ? "" : say(", energy gain {:.6g}", event.energy_gain));
+        std::string told = event.impulse.empty() ? "" : say(", energy gain {:.6g}", event.energy_gain);
+        for (const auto& [name, value] : recorded_at(run, i)) told += fmt::format(", {} = {:.10g}", name, value);
+        text += say("event {} at t = {:.15g}{}\n",
+                    run.mechanism.events[static_cast<std::size_t>(event.index)].name, event.time, told);
     }
     return text;
 }
@@ -217,7 +237,7 @@ void add_motion(std::string& page, const Run& run, int digits) {
     if (later > most_switches) say_on(page, "… and {} more changes of method\n", later - most_switches);
     if (run.solver.jacobian_operations)
         say_on(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
-    page += text_of(run.motion.events, run.mechanism);
+    page += text_of_events(run);
     page += text_of(run.motion.contacts, run.contacts);
     page += text_of(run.friction_changes, run.mechanism);
     for (std::size_t k = 0; k < std::min(run.chart_passes.size(), most_lines); ++k)
@@ -233,7 +253,10 @@ void add_motion(std::string& page, const Run& run, int digits) {
         coordinates.push_back(ShownUnit(m.shown_units[i]).label(run.coordinates[i]));
     for (std::size_t k = 0; k < run.speeds.size(); ++k)
         speeds.push_back(ShownUnit(m.speeds[k].shown).label(run.speeds[k]));
-    const std::size_t width = column_for(speeds, column_for(coordinates, 16));
+    std::vector<std::string> states;
+    for (const Mechanism::State& z : m.states)
+        states.push_back(ShownUnit(z.shown).label(z.derivative[0].get_name()));
+    const std::size_t width = column_for(states, column_for(speeds, column_for(coordinates, 16)));
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
         const ShownUnit unit(m.shown_units[i]);
         say_on(page, "{:<{}}{:>{}.{}g}   rate {:>{}.{}g}\n", coordinates[i], width,
@@ -242,6 +265,9 @@ void add_motion(std::string& page, const Run& run, int digits) {
     }
     for (std::size_t k = 0; k < speeds.size(); ++k)
         put(page, "{:<{}}{:>{}.{}g}\n", speeds[k], width, ShownUnit(m.speeds[k].shown).value(run.final_speeds[k]),
+            digits + 8, digits);
+    for (std::size_t k = 0; k < states.size(); ++k)
+        put(page, "{:<{}}{:>{}.{}g}\n", states[k], width, ShownUnit(m.states[k].shown).value(run.final_states[k]),
             digits + 8, digits);
     if (run.contacts.empty()) return;
     std::string closed;
@@ -316,6 +342,8 @@ Json as_json(const Run& run) {
                        {"coordinates", by_name(run.coordinates, run.final_coordinates)},
                        {"rates", by_name(run.coordinates, run.final_rates)}};
     if (!run.speeds.empty()) result["final"]["speeds"] = by_name(run.speeds, run.final_speeds);
+    for (std::size_t k = 0; k < run.final_states.size(); ++k)
+        result["final"]["states"][run.mechanism.states[k].derivative[0].get_name()] = run.final_states[k];
     if (Json units = si_units(run.mechanism); !units.empty()) result["units"] = std::move(units);
     result["method"] = s.method;
     if (!run.why_method.empty()) result["method_why"] = run.why_method;
@@ -348,7 +376,7 @@ Json as_json(const Run& run) {
     }
     if (!run.adjusted.empty()) result["adjusted"] = run.adjusted;
     result["events"] = Json::array();
-    for (const EventRecord& event : run.motion.events) result["events"].push_back(json_of(event, run.mechanism));
+    for (std::size_t row = 0; row < run.motion.events.size(); ++row) result["events"].push_back(json_of(run, row));
     if (run.mechanism.has_kicks()) result["impulse_work"] = energy.impulse_work;
     for (const Run::Side& change : run.side_changes)
         result["switches"].push_back(

@@ -9,6 +9,8 @@ Json si_units(const Mechanism& m) {
         if (!m.units[k].empty()) units[m.q[k].get_name()] = m.units[k];
     for (const Mechanism::Speed& speed : m.speeds)
         if (!speed.unit.empty()) units[speed.u.get_name()] = speed.unit;
+    for (const Mechanism::State& z : m.states)
+        if (!z.unit.empty()) units[z.derivative[0].get_name()] = z.unit;
     return units;
 }
 

@@ -64,6 +64,7 @@ Json rows_as_json(const Sweep& s, const std::vector<SweptMotion>& motions) {
                         {"coordinates", by_name(s.coordinates, m.final_coordinates)},
                         {"rates", by_name(s.coordinates, m.final_rates)}};
         if (!s.speeds.empty()) row["final"]["speeds"] = by_name(s.speeds, m.final_speeds);
+        if (!s.states.empty()) row["final"]["states"] = by_name(s.states, m.final_states);
         row[drift_name(s)] = m.drift;
         if (!s.along.empty()) row["along"] = by_name(along_columns(s), m.along);
         row["steps"] = m.steps;

@@ -38,6 +38,8 @@ std::string unit_of_varied(const Mechanism& m, const std::string& name) {
     }
     for (const Mechanism::Speed& speed : m.speeds)
         if (speed.u.get_name() == name) return speed.unit;
+    for (const Mechanism::State& z : m.states)
+        if (z.derivative[0].get_name() == name) return z.unit;
     return {};
 }
 

@@ -46,7 +46,7 @@ void add_energy_roots(Lowering& lowering, Program& program, const Mechanism& m, 
     const int V = lowering(energy.potential);
     const bool own_speeds = !equations.h.empty() && !m.given_lagrangian;
     if (own_speeds && !mass.empty()) {
-        const int by_speeds = in_speeds(program, mass, equations.size());
+        const int by_speeds = in_speeds(program, mass, equations.size() - program.states);
         const bool is_shorter =
             program.count(std::array{by_speeds}).total() < program.count(std::array{T}).total();
         if (is_shorter && agree(program, T, by_speeds)) T = by_speeds;

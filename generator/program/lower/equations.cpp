@@ -15,6 +15,7 @@
 #include "base/language/say.hpp"
 #include "model/formalism/joint_tree.hpp"
 #include "model/formalism/kinematics.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/lower/articulated_bodies.hpp"
 #include "program/lower/energy_roots.hpp"
 #include "program/lower/lower.hpp"
@@ -54,14 +55,17 @@ Witness witness_of(const Program& program, const Mechanism& m, const Equations& 
     return is_massless || is_singular(mass, e.size(), witness.values(program)) ? witness : Witness();
 }
 
+bool is_state(const Mechanism& m, const GiNaC::symbol& u) {
+    return m.symbols->info(u).kind == SymbolInfo::Kind::state;
+}
+
 /// Defines q' = h(q,u,t) and q'' if the speeds are not the rates; u' are the nodes of `udot`.
 void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e,
                   const std::vector<int>& udot) {
     if (e.speeds_are_rates()) return;
-    for (int k = 0; k < e.size(); ++k) {
-        lowering.define(e.u[k], program.variable({Variable::Kind::rate, k}));
-        lowering.define(e.udot[k], udot[k]);
-    }
+    for (int k = 0; k < e.size(); ++k) lowering.define(e.u[k], program.variable({Variable::Kind::rate, k}));
+    for (int k = 0; k < e.size(); ++k)
+        if (!is_state(m, e.u[k])) lowering.define(e.udot[k], udot[k]);
     const std::vector<ex> second = accelerations(m, e);
     lowering.lower_definitions(e.h);
     lowering.lower_definitions(second);
@@ -76,7 +80,9 @@ void define_rates(Lowering& lowering, Program& program, const Mechanism& m, cons
 
 /// Adds roots for the scene's generalized speeds and their rates.
 void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e) {
-    const bool in_state = !e.speeds_are_rates();
+    const bool in_state = std::any_of(m.speeds.begin(), m.speeds.end(), [&](const Mechanism::Speed& speed) {
+        return std::any_of(e.u.begin(), e.u.end(), [&](const auto& u) { return u.is_equal(speed.u); });
+    });
     std::vector<ex> values, rates;
     for (const Mechanism::Speed& speed : m.speeds) {
         values.push_back(in_state ? speed.u : speed.form);
@@ -147,6 +153,7 @@ public:
           energy_(energy),
           options_(options),
           n_(e.size()),
+          states_(options.states_are_given ? 0 : static_cast<int>(m.states.size())),
           has_speeds_(!e.speeds_are_rates()),
           has_matrix_(e.M.rows() > 0),
           is_recursive_(options.recursion && e.tree),
@@ -157,6 +164,7 @@ public:
           acting_alone_(program_, m, options.fold) {
         program_.formulation = e.formalism;
         program_.is_textbook = options.is_textbook;
+        program_.states = states_;
         for (std::size_t k = 0; k < kept_.size(); ++k) row_of_[kept_[k]] = static_cast<int>(k);
         for (const Mechanism::Constraint& c : m.redundant)
             if (c.tie && has_matrix_ && !has_speeds_) tied_.push_back(&c);
@@ -236,20 +244,26 @@ private:
         for (int k = 0; k < n_ && has_speeds_; ++k) {
             const SymbolInfo& info = m_.symbols->info(e_.u[k]);
             const bool is_rate = info.kind == SymbolInfo::Kind::coordinate;
-            program_.speeds.push_back({.name = e_.u[k].get_name() + (is_rate ? "'" : ""),
-                                       .unit = m_.speeds.empty() ? "" : m_.speeds[k].unit,
-                                       .rate_of = is_rate ? info.index : -1});
+            const bool is_of_scene = k >= n_ - states_;
+            std::string unit = is_of_scene         ? m_.states[static_cast<std::size_t>(k - (n_ - states_))].unit
+                               : m_.speeds.empty() ? ""
+                                                   : m_.speeds[static_cast<std::size_t>(k)].unit;
+            if (is_rate && states_ > 0) unit = per_second(m_.units[static_cast<std::size_t>(info.index)]);
+            program_.speeds.push_back({.name = info.text(), .unit = unit, .rate_of = is_rate ? info.index : -1});
             udot.push_back(program_.variable({Variable::Kind::acceleration, k}));
         }
         return udot;
     }
+
+    /// Whether the row belongs to the joints of a tree, and to no state of the scene.
+    bool is_of_tree(int i) const { return is_recursive_ && i < n_ - states_; }
 
     /// The expressions of the energies, of M, f, A and γ, and of the constraints.
     std::vector<ex> entries() const {
         std::vector<ex> wanted{energy_.kinetic, energy_.potential, energy_.energy, energy_.jacobi};
         for (int i = 0; i < n_; ++i) {
             for (int j = 0; j <= i && !is_recursive_; ++j) wanted.push_back(e_.M(i, j));
-            wanted.push_back(is_recursive_ ? e_.tree->forces[i] : e_.forcing(i));
+            wanted.push_back(is_of_tree(i) ? e_.tree->forces[i] : e_.forcing(i));
         }
         for (std::size_t k = 0; k < e_.A.size(); ++k) {
             wanted.insert(wanted.end(), e_.A[k].begin(), e_.A[k].end());
@@ -338,7 +352,7 @@ private:
             for (int j = 0; j <= i; ++j) {
                 blame_row(i);
                 std::vector<Program::Term> terms{
-                    {1, is_recursive_ ? by_tree.mass[i * (i + 1) / 2 + j] : lowering_(e_.M(i, j))}};
+                    {1, is_of_tree(i) ? by_tree.mass[i * (i + 1) / 2 + j] : lowering_(e_.M(i, j))}};
                 for (std::size_t k = 0; k < norms.size(); ++k) {
                     const std::vector<ex>& row = *norms[k].row;
                     terms.emplace_back(
@@ -356,7 +370,7 @@ private:
         std::vector<int> forcing;
         for (int i = 0; i < n_ && has_matrix_; ++i) {
             blame_row(i);
-            std::vector<Program::Term> terms{{1, is_recursive_ ? by_tree.forcing[i] : acting(e_.forcing(i))}};
+            std::vector<Program::Term> terms{{1, is_of_tree(i) ? by_tree.forcing[i] : acting(e_.forcing(i))}};
             for (std::size_t k = 0; k < norms.size(); ++k) {
                 const auto& [c, row, gamma] = norms[k];
                 terms.emplace_back(
@@ -443,7 +457,10 @@ private:
         std::vector<ex> wanted;
         std::vector<std::vector<ex>> columns;  // ∂q'/∂u
         for (int k = 0; k < n_ && has_speeds_; ++k) {
-            columns.push_back(m_.z->push_forward(e_.h, {{e_.u[k], 1}}));
+            if (k < n_ - states_)
+                columns.push_back(m_.z->push_forward(e_.h, {{e_.u[k], 1}}));
+            else  // no displacement is along a state
+                columns.emplace_back(m_.q.size(), 0);
             wanted.insert(wanted.end(), columns.back().begin(), columns.back().end());
         }
         for (const Mechanism::Constraint& constraint : m_.redundant) {
@@ -477,6 +494,7 @@ private:
         const std::optional<std::vector<int>> norms = norms_alone(*e_.tree, m_);
         if (!norms) return std::nullopt;
         std::vector<int> unknowns = *by_tree.acceleration;
+        for (int k = n_ - states_; k < n_; ++k) unknowns.push_back(lowering_(e_.forcing(k)));
         unknowns.resize(static_cast<std::size_t>(n_) + norms->size());
         for (std::size_t b = 0; b < norms->size(); ++b)
             unknowns[n_ + row_of_[(*norms)[b]]] = program_.sum(0, {{-1, by_tree.multipliers[b]}});
@@ -571,7 +589,7 @@ private:
     const Equations& e_;
     const Energy& energy_;
     const LowerOptions& options_;
-    const int n_;
+    const int n_, states_;
     const bool has_speeds_, has_matrix_, is_recursive_;
     const std::vector<int> kept_;
     std::vector<int> row_of_;  ///< for each constraint its row in A, −1 if it is eliminated
@@ -602,7 +620,8 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     const Mechanism m = is_in_terms_of(*mechanism.z, *equations.z, *energy.z)
                             ? with_own_intermediates(mechanism)
                             : in_terms_of(energy, in_terms_of(equations, mechanism));
-    return EquationsLowering(m, equations, energy, options).run();
+    const Equations all = options.states_are_given ? equations : with_states(equations, m);
+    return EquationsLowering(m, all, energy, options).run();
 }
 
 }  // namespace alembert

@@ -10,7 +10,8 @@
 /// energies, outputs and events; for constraints rows, positions, velocities, gamma, multipliers, and a step of
 /// the projection (project.hpp); for a scene with speeds these and their rates. Where the speeds are not the
 /// rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u', and there are
-/// roots for q', q'' and A in speeds.
+/// roots for q', q'' and A in speeds. So it is in a scene with first-order states, which stand behind the speeds
+/// (model/formalism/with_states.hpp).
 
 #include <functional>
 
@@ -30,6 +31,9 @@ struct LowerOptions {
     /// variables of kind `unknown`, each numbered by the first friction in Mechanism::frictions that has it. If
     /// there are any, the program has no accelerations.
     bool reactions_are_letters = false;
+    /// Whether the first-order states of the scene are given numbers, as for a reader or for a comparison of
+    /// equations of motion: variables of kind `rate` behind those of q'. Else they are part of the state.
+    bool states_are_given = false;
     std::optional<RecursionForm> recursion =
         {};  ///< for equations with a tree: M, f and q'' by this recursion instead of by their expressions
     /// Gives a state that obeys the constraints (analysis/state/assemble.hpp). It is asked for where coordinates

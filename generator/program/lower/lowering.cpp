@@ -123,6 +123,8 @@ int Lowering::symbol(const GiNaC::symbol& s) {
             return parameter(info.index);
         case SymbolInfo::Kind::input:
             return input(info.index, info.order);
+        case SymbolInfo::Kind::state:
+            return state(info.index, info.order);
         case SymbolInfo::Kind::coordinate: {
             const auto kind = info.order == 0   ? Variable::Kind::coordinate
                               : info.order == 1 ? Variable::Kind::rate
@@ -163,6 +165,13 @@ int Lowering::input(int index, int order) {
     ex value = m_.inputs[index].value;
     for (int i = 0; i < order; ++i) value = m_.explicit_time_derivative({value})[0];
     return (*this)(value);
+}
+
+/// In rates, the states stand behind q'. Where the speeds are not the rates, whoever lowers defines z.
+int Lowering::state(int index, int order) {
+    if (order == 0) return program_.variable({Variable::Kind::rate, m_.size() + index});
+    const ex& rate = m_.states[static_cast<std::size_t>(index)].rate;
+    return (*this)(order == 1 ? rate : m_.time_derivative({rate})[0]);
 }
 
 }  // namespace alembert

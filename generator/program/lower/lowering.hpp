@@ -38,6 +38,7 @@ private:
     /// The value of an expression in parameters at the scene's values, in double precision.
     Rational folded(const GiNaC::ex& e);
     int input(int index, int order);
+    int state(int index, int order);
 
     Program& program_;
     const Mechanism& m_;

@@ -212,7 +212,7 @@ private:
 std::vector<Perturbed> perturbed_tree(const Program& program, const Mechanism& mechanism,
                                       const Equations& equations, bool fold) {
     std::vector<Perturbed> list;
-    if (!equations.speeds_are_rates()) return list;
+    if (!equations.speeds_are_rates() || !mechanism.states.empty()) return list;
     const Mechanism m = in_terms_of(equations, mechanism);
     const Possible<JointTree> found = loaded_tree(m);
     if (!found.exists() || !norms_alone(found.value(), m)) return list;

@@ -9,6 +9,7 @@
 #include "alembert/base/argument.hpp"
 #include "base/language/libraries.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -16,6 +17,7 @@ namespace alembert {
 Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names) : m_(mechanism) {
     plain_.q.resize(m_.q.size());
     plain_.qdot.resize(m_.q.size());
+    plain_.states.resize(m_.states.size());
     if (!m_.speeds.empty() && m_.speeds[0].start) plain_.speeds.resize(m_.speeds.size());
     for (const Mechanism::Parameter& p : m_.parameters)
         if (p.independent) plain_.parameters.push_back(p.number().to_double());
@@ -25,6 +27,7 @@ Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names
     for (int i = 0; i < m_.size(); ++i) want(m_.q_start[i]);
     for (int i = 0; i < m_.size(); ++i) want(m_.qdot_start[i]);
     for (std::size_t k = 0; k < plain_.speeds.size(); ++k) want(*m_.speeds[k].start);
+    for (const Mechanism::State& state : m_.states) want(state.start);
     for (const auto* e :
          {&m_.run.start, &m_.run.duration, &m_.run.tolerance, &m_.run.step, &m_.run.max_step, &m_.run.sample})
         if (*e) want(**e);
@@ -58,6 +61,10 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         if (!plain_.speeds.empty()) return {name, Part::speed, k};
         throw ModelError(say("{}=…: the scene gives rates, and '{}' follows from them; set those", name, name));
     }
+    for (std::size_t k = 0; k < m_.states.size(); ++k) {
+        known.push_back(m_.states[k].derivative[0].get_name());
+        if (known.back() == name) return {name, Part::state, k};
+    }
     const std::string meant = nearest(name, known);
     throw ModelError(say("{}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name,
                          meant.empty() ? "" : say("; did you mean '{}'?", meant)));
@@ -73,6 +80,8 @@ double& Starts::place(const Spot& spot, Start& start) {
             return start.qdot[spot.index];
         case Part::speed:
             return start.speeds[spot.index];
+        case Part::state:
+            return start.states[spot.index];
         default:
             return start.t;
     }
@@ -92,7 +101,7 @@ Possible<Start> Starts::possible(const std::vector<double>& values) const {
     const std::vector<double> value =
         interpret<double>(program_, {.parameters = start.parameters, .q = {}, .qdot = {}, .qddot = {}});
     std::size_t next = 0;
-    for (std::vector<double>* part : {&start.q, &start.qdot, &start.speeds})
+    for (std::vector<double>* part : {&start.q, &start.qdot, &start.speeds, &start.states})
         for (double& x : *part) x = value[nodes_[next++]];
     if (m_.run.start) start.t = value[nodes_[next++]];
     if (m_.run.duration) start.duration = value[nodes_[next++]];
@@ -109,6 +118,10 @@ Possible<Start> Starts::possible(const std::vector<double>& values) const {
         if (!std::isfinite(start.speeds[k]))
             return Obstacle{
                 say("the initial value of '{}' is not finite at these parameters", m_.speeds[k].u.get_name())};
+    for (std::size_t k = 0; k < start.states.size(); ++k)
+        if (!std::isfinite(start.states[k]))
+            return Obstacle{say("the initial value of '{}' is not finite at these parameters",
+                                m_.states[k].derivative[0].get_name())};
     return start;
 }
 
@@ -141,13 +154,16 @@ State<double> state_of(const Start& start, const Mechanism& m, const Equations& 
     if (equations.speeds_are_rates()) return state;
     if (!start.speeds.empty()) {
         state.qdot = start.speeds;
-        return state;
+        state.qdot.insert(state.qdot.end(), start.states.begin(), start.states.end());
+    } else {
+        Program program;
+        const std::vector<int> nodes = lower_expressions(program, in_terms_of(equations, m), equations.form);
+        const std::vector<double> value = interpret(program, state);
+        state.qdot.clear();
+        for (const int id : nodes) state.qdot.push_back(value[id]);
+        if (!has_states(equations, m))
+            state.qdot.insert(state.qdot.end(), start.states.begin(), start.states.end());
     }
-    Program program;
-    const std::vector<int> nodes = lower_expressions(program, in_terms_of(equations, m), equations.form);
-    const std::vector<double> value = interpret(program, state);
-    state.qdot.clear();
-    for (const int id : nodes) state.qdot.push_back(value[id]);
     return state;
 }
 

@@ -23,11 +23,17 @@ struct Start {
     double t = 0;
     std::vector<double> q, qdot;
     std::vector<double> speeds;  ///< the scene's speeds, if the rates follow from them; else empty
+    std::vector<double> states;  ///< the scene's first-order states
     double duration = 10;        ///< in s; 10 if the scene does not give it
     double tolerance = 1e-9, step = 0, sample = 0;
     double max_step = 0;  ///< in s; 0 means no bound
 
-    State<double> state() const { return {.parameters = parameters, .t = t, .q = q, .qdot = qdot, .qddot = {}}; }
+    /// The state in the order of a program in rates: the states of the scene stand behind q'.
+    State<double> state() const {
+        State<double> result{.parameters = parameters, .t = t, .q = q, .qdot = qdot, .qddot = {}};
+        result.qdot.insert(result.qdot.end(), states.begin(), states.end());
+        return result;
+    }
 };
 
 using Overrides = std::vector<std::pair<std::string, double>>;
@@ -48,7 +54,7 @@ public:
     Start at(const std::vector<double>& values) const { return possible(values).value(); }
 
 private:
-    enum class Part { t, parameter, q, qdot, speed };
+    enum class Part { t, parameter, q, qdot, speed, state };
     struct Spot {
         std::string name;
         Part part;
@@ -61,13 +67,13 @@ private:
     Start plain_;  ///< the scene's own parameters, and room for the other values
     std::vector<Spot> spots_;
     Program program_;
-    std::vector<int> nodes_;  ///< q, q', speeds, then the scene's settings of the run
+    std::vector<int> nodes_;  ///< q, q', speeds, states, then the scene's settings of the run
 };
 
 /// Initial values that depend on parameters are computed from the replaced ones. A name is a parameter's, a
-/// coordinate's, a rate's (`theta1'`), a generalized speed's or `t`, or that of an input that has this number
-/// already (`prepared`). Throws ModelError for any other, with the nearest known name, for a parameter that is
-/// defined by others, and for a value that is not finite.
+/// coordinate's, a rate's (`theta1'`), a generalized speed's, a state's or `t`, or that of an input that has this
+/// number already (`prepared`). Throws ModelError for any other, with the nearest known name, for a parameter that
+/// is defined by others, and for a value that is not finite.
 Start start_of(const Mechanism& mechanism, const Overrides& overrides = {});
 
 }  // namespace alembert

@@ -33,6 +33,14 @@ void refuse_contacts(const Mechanism& m) {
 void add_impulses(Program& program, const UnitModel& model) {
     const Mechanism& m = model.mechanism;
     if (!m.has_kicks()) return;
+    for (std::size_t k = 0; k < m.events.size(); ++k) {
+        const Mechanism::EventAction& action = m.event_actions[k];
+        if (!action.set.empty() || !action.rates.empty() || action.count)
+            throw ModelError(say(
+                "a functional mock-up unit knows impulses of events, but no 'set', 'rates' or 'count', and event "
+                "'{}' has one; use 'alembert simulate', or the library",
+                m.events[k].name));
+    }
     if (!program.speeds.empty())
         throw ModelError(
             say("events with impulses can be exported only where the speeds are the rates of the coordinates; "

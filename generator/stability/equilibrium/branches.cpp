@@ -201,7 +201,7 @@ Branches branches(Scene scene, const FollowOptions& options) {
     if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
         throw ModelError(
             say("--vary {}={}:{}: expected two different numbers", options.name, options.from, options.to));
-    Branches result{derived(std::move(scene), {.by = options.by, .at = options.at})};
+    Branches result{derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true})};
     result.parameter = options.name;
     result.from = options.from;
     result.to = options.to;

@@ -295,7 +295,7 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
 
 Equilibria equilibria(Scene scene, const EquilibriumOptions& options) {
     argument::need_whole_nonnegative("starts", options.starts);
-    Equilibria result{derived(std::move(scene), {.by = options.by, .at = options.at})};
+    Equilibria result{derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true})};
     Start start = start_of(result.mechanism, options.at);
     assemble(start, result.mechanism, lower_constraints(result.mechanism), options.at, false);
     check_contacts(result, start);

@@ -76,12 +76,14 @@ ExactStart exact_start(const Mechanism& m, const Start& start, const ExactOverri
                       .t = Rational(cln::rational(cln::cl_DF(start.t))),
                       .q = {},
                       .qdot = {},
-                      .speeds = {}};
+                      .speeds = {},
+                      .states = {}};
     Program program = begun(m);
     std::vector<int> nodes;
     for (const ex& e : m.q_start) nodes.push_back(lower_expression(program, m, m.z->expand(e)));
     for (const ex& e : m.qdot_start) nodes.push_back(lower_expression(program, m, m.z->expand(e)));
     for (const Mechanism::Speed& s : m.speeds) nodes.push_back(lower_expression(program, m, s.start.value_or(0)));
+    for (const Mechanism::State& z : m.states) nodes.push_back(lower_expression(program, m, z.start));
     nodes.push_back(lower_expression(program, m, m.run.start.value_or(0)));
     State<Expansion> state;
     for (const Certain& p : result.parameters) state.parameters.emplace_back(p);
@@ -95,6 +97,8 @@ ExactStart exact_start(const Mechanism& m, const Start& start, const ExactOverri
     for (int i = 0; i < m.size(); ++i)
         result.qdot.push_back(exact_or(take(m.q[i].get_name() + "'"), start.qdot[i]));
     for (const Mechanism::Speed& s : m.speeds) result.speeds.push_back(take(s.u.get_name()));
+    for (std::size_t k = 0; k < m.states.size(); ++k)
+        result.states.push_back(exact_or(take(m.states[k].derivative[0].get_name()), start.states[k]));
     if (const Certain t = take("t"); std::abs(t.number() - start.t) < near_enough) result.t = t;
     return result;
 }

@@ -16,6 +16,7 @@ struct ExactStart {
     CertainVector parameters;  ///< the independent parameters, in the order of programs
     Certain t;
     CertainVector q, qdot, speeds;  ///< `speeds` are those of the scene with an initial value; others are 0
+    CertainVector states;           ///< the scene's first-order states
 };
 
 /// Parameters and state of the equations of motion, in the order of their programs.

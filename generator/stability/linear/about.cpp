@@ -118,7 +118,7 @@ std::optional<LinearizedScene> linearize_near(const LinearizedScene& begun, cons
 }  // namespace
 
 LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
-    LinearizedScene result{derived(std::move(scene), {.by = options.by, .at = options.at})};
+    LinearizedScene result{derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true})};
     need_given_normal_forces(result.mechanism, "linearize");
     result.start = start_of(result.mechanism, options.at);
     assemble(result.start, result.mechanism, lower_constraints(result.mechanism), options.at);

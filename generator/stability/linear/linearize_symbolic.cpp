@@ -6,6 +6,7 @@
 
 #include "algebra/notation/readable.hpp"
 #include "algebra/symbolic/fourier.hpp"
+#include "model/formalism/with_states.hpp"
 
 namespace alembert {
 
@@ -25,29 +26,43 @@ bool has_unknown_derivative(const ex& e) {
     return false;
 }
 
-std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0,
-                                         const std::vector<ex>& u0) {
-    const int n = m.size();
-    if (!m.constraints.empty() || !e.speeds_are_rates() || n > most_coordinates) return {};
+/// The values of q, q' and of the states.
+GiNaC::exmap state_at(const Mechanism& m, const std::vector<ex>& q0, const std::vector<ex>& u0,
+                      const std::vector<ex>& z0) {
     GiNaC::exmap there;
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < m.size(); ++i) {
         there[m.q[i]] = m.z->expand(q0[i]);
         there[m.qdot[i]] = m.z->expand(u0[i]);
     }
-    const auto readable_there = [&](const ex& derivative) -> std::optional<ex> {
-        const ex value = derivative.subs(there);
-        if (has_unknown_derivative(value)) return {};
-        const auto f = fourier(value, *m.symbols, 400);
-        if (!f || f->size() > most_terms) return {};
-        return expression(readable(*f));
-    };
+    for (std::size_t k = 0; k < z0.size(); ++k) there[m.states[k].derivative[0]] = m.z->expand(z0[k]);
+    return there;
+}
+
+/// Nothing if it is long, or has no derivative that GiNaC knows.
+std::optional<ex> readable_at(const ex& derivative, const GiNaC::exmap& there, const Mechanism& m) {
+    const ex value = derivative.subs(there);
+    if (has_unknown_derivative(value)) return {};
+    const auto f = fourier(value, *m.symbols, 400);
+    if (!f || f->size() > most_terms) return {};
+    return expression(readable(*f));
+}
+
+bool is_zero_at(const ex& e, const GiNaC::exmap& there, const Mechanism& m) {
+    const auto value = fourier(e.subs(there), *m.symbols, 400);
+    return value && is_zero(*value);
+}
+
+std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e, const GiNaC::exmap& there) {
+    const int n = m.size();
+    if (!m.constraints.empty() || !e.speeds_are_rates() || n > most_coordinates) return {};
+    const auto readable_there = [&](const ex& derivative) { return readable_at(derivative, there, m); };
     const unsigned size = static_cast<unsigned>(n);
     SymbolicMatrices result{
         .M = {size, size}, .C = {size, size}, .G = {size, size}, .K = {size, size}, .N = {size, size}};
     std::vector<ex> f;
     for (int i = 0; i < n; ++i) {
         if (m.z->tree_size(e.forcing(i)) > largest_tree) return {};
-        f.push_back(m.z->expand(e.forcing(i)));
+        f.push_back(m.z->expand(without_state_rates(e.forcing(i), m)));
     }
     const ex half = GiNaC::numeric(1, 2);
     for (int i = 0; i < n; ++i)
@@ -65,11 +80,41 @@ std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e,
                 (*matrix)(i, j) = *element;
             }
         }
-    result.stays = std::all_of(f.begin(), f.end(), [&](const ex& force) {
-        const auto value = fourier(force.subs(there), *m.symbols, 400);
-        return value && is_zero(*value);
-    });
+    result.stays = std::all_of(f.begin(), f.end(), [&](const ex& force) { return is_zero_at(force, there, m); });
     return result;
+}
+
+/// Rows s δz − ∂r/∂q' s δq − ∂r/∂q δq − ∂r/∂z δz = 0 of z' = r, and a column −∂f/∂z for each state.
+std::optional<SymbolicPencil> with_rows_of_states(const Mechanism& m, const Equations& e,
+                                                  const SymbolicPencil& found, const GiNaC::exmap& there) {
+    const auto n = static_cast<unsigned>(m.size()), all = n + static_cast<unsigned>(m.states.size());
+    SymbolicPencil result{.S2 = {all, all}, .S1 = {all, all}, .S0 = {all, all}, .stays = found.stays};
+    for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < n; ++j) {
+            result.S2(i, j) = found.S2(i, j);
+            result.S1(i, j) = found.S1(i, j);
+            result.S0(i, j) = found.S0(i, j);
+        }
+    bool is_short = true;
+    const auto put = [&](ex& to, const ex& derivative) {
+        const auto value = readable_at(-derivative, there, m);
+        is_short = is_short && value;
+        if (value) to = *value;
+    };
+    for (unsigned k = n; k < all; ++k) {
+        const GiNaC::symbol& z = m.states[k - n].derivative[0];
+        for (unsigned i = 0; i < n; ++i)
+            put(result.S0(i, k), m.z->expand(without_state_rates(e.forcing(static_cast<int>(i)), m)).diff(z));
+        const ex rate = m.z->expand(without_state_rates(m.states[k - n].rate, m));
+        for (unsigned j = 0; j < n; ++j) {
+            put(result.S1(k, j), rate.diff(m.qdot[j]));
+            put(result.S0(k, j), rate.diff(m.q[j]));
+        }
+        for (unsigned l = n; l < all; ++l) put(result.S0(k, l), rate.diff(m.states[l - n].derivative[0]));
+        result.S1(k, k) = 1;
+        result.stays = result.stays && is_zero_at(rate, there, m);
+    }
+    return is_short ? std::optional(result) : std::nullopt;
 }
 
 /// The pencil of a scene with constraints. GiNaC's expressions are all in q, q' and parameters.
@@ -204,23 +249,24 @@ private:
 std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e,
                                                   const std::vector<ex>& q0, const std::vector<ex>& u0) {
     try {
-        return matrices(m, e, q0, u0);
+        return matrices(m, e, state_at(m, q0, u0, {}));
     } catch (const GiNaC::pole_error&) {  // 0·∞, as of sqrt(x^2)^3 at 0
         return {};
     }
 }
 
 std::optional<SymbolicPencil> symbolic_pencil(const Mechanism& m, const Equations& e, const std::vector<ex>& q0,
-                                              const std::vector<ex>& u0) {
-    if (m.constraints.empty()) {
-        const auto found = symbolic_matrices(m, e, q0, u0);
-        if (!found) return {};
-        SymbolicPencil result{.S2 = found->M, .S1 = found->C.add(found->G), .S0 = found->K.add(found->N)};
-        result.stays = found->stays;
-        return result;
-    }
-    if (!e.speeds_are_rates()) return {};
+                                              const std::vector<ex>& u0, const std::vector<ex>& z0) {
+    if (!e.speeds_are_rates() || (!m.constraints.empty() && !m.states.empty())) return {};
     try {
+        if (m.constraints.empty()) {
+            const GiNaC::exmap there = state_at(m, q0, u0, z0);
+            const auto found = matrices(m, e, there);
+            if (!found) return {};
+            const SymbolicPencil result{
+                .S2 = found->M, .S1 = found->C.add(found->G), .S0 = found->K.add(found->N), .stays = found->stays};
+            return m.states.empty() ? result : with_rows_of_states(m, e, result, there);
+        }
         return ConstrainedPencil(m, e, q0, u0).find();
     } catch (const GiNaC::pole_error&) {
         return {};

@@ -38,9 +38,10 @@ struct SymbolicPencil {
                          ///< constraints hold
 };
 
-/// As `symbolic_matrices`, with constraints too; nothing with unilateral ones, or if more than eight rows come of
-/// them.
+/// As `symbolic_matrices`, with constraints or first-order states too, which are z0 there; nothing with unilateral
+/// ones, or if more than eight rows come of them.
 std::optional<SymbolicPencil> symbolic_pencil(const Mechanism& mechanism, const Equations& equations,
-                                              const std::vector<GiNaC::ex>& q0, const std::vector<GiNaC::ex>& u0);
+                                              const std::vector<GiNaC::ex>& q0, const std::vector<GiNaC::ex>& u0,
+                                              const std::vector<GiNaC::ex>& z0);
 
 }  // namespace alembert

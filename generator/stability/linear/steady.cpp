@@ -102,10 +102,12 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
 
     // The speeds that move no essential coordinate.
     const Tangent<long double> here = tangent(residuals_, split, start_, false, Undisturbed::steady);
-    LongMatrix moves(nr, p);
+    LongMatrix moves = LongMatrix::Zero(nr + p, p);
+    for (Index i = 0; i < p; ++i)  // a state is no rate of a cyclic coordinate: it has to stay
+        if (m.symbols->info(e.u[split.u[i]]).kind == SymbolInfo::Kind::state) moves(nr + i, i) = 1;
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
     LongMatrix free = LongMatrix::Identity(p, p);
-    if (nr > 0 && p > 0 && !moves.isZero(0)) free = kernel_of(moves);
+    if (p > 0 && !moves.isZero(0)) free = kernel_of(moves);
     kept_speeds_ = LongMatrix::Zero(free.cols(), residuals_.s);
     for (Index k = 0; k < free.cols(); ++k)
         for (Index i = 0; i < p; ++i) kept_speeds_(k, split.u[i]) = free(i, k) / free.col(k).norm();
@@ -307,6 +309,8 @@ Start SteadyProblem::start_at(const Start& like, const Instant<long double>& at)
     for (std::size_t k = 0; k < residuals_.inputs.size(); ++k) state.unknown[residuals_.inputs[k]] = at.inputs[k];
     const std::vector<long double> value = interpret(residuals_.program, state);
     for (std::size_t k = 0; k < result.speeds.size(); ++k) result.speeds[k] = static_cast<double>(at.u[k]);
+    for (std::size_t k = 0, first = at.u.size() - result.states.size(); k < result.states.size(); ++k)
+        result.states[k] = static_cast<double>(at.u[first + k]);
     for (std::size_t i = 0; i < result.qdot.size(); ++i)
         result.qdot[i] = static_cast<double>(value[residuals_.rate[i]]);
     return result;
@@ -323,6 +327,9 @@ std::vector<std::pair<std::string, std::string>> steady_nearby(const Mechanism& 
         state.emplace_back(m.q[i].get_name(), fmt::format("{}", static_cast<double>(root->at.q[i])));
         if (start.qdot[i] != 0) state.emplace_back(m.q[i].get_name() + "'", "0");
     }
+    for (std::size_t k = 0; k < m.states.size(); ++k)
+        state.emplace_back(m.states[k].derivative[0].get_name(),
+                           fmt::format("{}", static_cast<double>(root->at.u[e.u.size() - m.states.size() + k])));
     return state;
 } catch (const std::runtime_error&) {  // there is no such state to suggest
     return {};

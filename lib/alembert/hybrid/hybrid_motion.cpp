@@ -101,7 +101,11 @@ public:
 
     /// An event that stops the run takes precedence over a contact at the same instant.
     bool next_mode(const Hit& hit) {
-        const Halt halt = halt_of(hit);
+        Halt halt = halt_of(hit);
+        for (const int k : halt.kicks)
+            if (const int last = contacts_.kicks.last_of(static_cast<std::size_t>(k));
+                last > 0 && ++met_[k] >= last)
+                halt.stops = true;
         if (halt.contact < 0 && halt.kicks.empty()) return false;
         if (mode_->system.project)  // dense output obeys the constraints only approximately
             mode_->system.project(now_.t, now_.state.data());
@@ -150,16 +154,24 @@ private:
         VectorXd sum;
         for (const int k : kicks) {
             const VectorXd one = contacts_.kicks.impulse(k, now_.t, state.data());
+            if (one.size() == 0) continue;
             if (EventRecord* const record = last_record(k)) record->impulse.assign(one.begin(), one.end());
             sum = sum.size() > 0 ? VectorXd(sum + one) : one;
         }
         return sum;
     }
 
+    void set_by(const std::vector<int>& kicks, const std::vector<double>& before,
+                std::vector<double>& after) const {
+        if (!contacts_.kicks.set || kicks.empty()) return;
+        for (const int k : kicks) contacts_.kicks.set(k, now_.t, before.data(), after.data());
+        if (contacts_.kicks.on_set) contacts_.kicks.on_set(now_.t, before.data(), after.data());
+    }
+
     void tell_gains(const std::vector<int>& kicks, const std::vector<double>& before, const VectorXd& struck) {
         const Eigen::Map<const VectorXd> u(before.data() + struck.size(), struck.size());
         for (const int k : kicks)
-            if (EventRecord* const record = last_record(k))
+            if (EventRecord* const record = last_record(k); record && !record->impulse.empty())
                 record->energy_gain =
                     Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2 +
                     0.0;  // avoids −0
@@ -196,6 +208,7 @@ private:
             mode_ ? in_rates(contacts_.kicks, mode_->system.rhs, now_.t, now_.state) : now_.state;
         const std::vector<double> integrated = now_.state;
         std::vector<double> rates = before;
+        set_by(halt.kicks, before, rates);
         Settled settled = settle(contacts_,
                                  {.t = now_.t,
                                   .tolerance = tolerance_,
@@ -220,6 +233,10 @@ private:
         if (!settled.failure.empty())
             return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks,
                         settled.failure);
+        for (const int k : halt.kicks)
+            if (contacts_.kicks.refusal)
+                if (const auto why = contacts_.kicks.refusal(k, now_.t, before.data(), rates.data()))
+                    return fail(FailureKind::endless_kicks, *why);
         if (options_.disturbed.seed != 0 && mode_) be_late_after(integrated);
         tell_gains(halt.kicks, before, settled.struck);
         go_from(halt, before, rates, settled.acceleration);
@@ -334,6 +351,7 @@ private:
     const ContactMode* mode_ = nullptr;  ///< the mode of the last phase
     std::vector<PassedZero> passed_;     ///< for the scene's events, at the start of the next phase
     std::map<int, KickSeries> series_;   ///< the kicks of each event
+    std::map<int, int> met_;             ///< how many zeros of each counted event there were
     long kicks_ = 0, jumps_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Kicks: events of the scene that apply impulses at their zeros. This header has what the scene must provide for
-/// them and what a run must remember.
+/// Kicks: events of the scene that apply impulses at their zeros, set states, or are counted. This header has what
+/// the scene must provide for them and what a run must remember.
 ///
 ///     Contacts contacts{.kicks = {.events = {true}, .impulse = …, .passed = …}};
 ///     const PhasedMotion motion = follow(contacts, modes, initial, options);        // hybrid_motion.hpp
@@ -49,11 +49,20 @@ struct Kicks {
     std::function<std::vector<PassedZero>(double t, const double* before, const double* after,
                                           const Eigen::VectorXd& acceleration)>
         passed = {};
-    int coordinates = 0;  ///< n
+    int coordinates = 0;         ///< n
+    std::vector<int> last = {};  ///< at which of its zeros an event ends the run; 0 or missing: at none
+    /// Sets what follows q' in `after`; `before` is the state before all events of the instant. May be empty.
+    std::function<void(int event, double t, const double* before, double* after)> set = {};
+    /// Called where events have set something, before their impulses act. May be empty.
+    std::function<void(double t, const double* before, const double* after)> on_set = {};
+    /// Why the state after the impulses is not what an event wants; nothing if it is. May be empty.
+    std::function<std::optional<std::string>(int event, double t, const double* before, const double* after)>
+        refusal = {};
     /// The speeds that the run integrates in place of the rates; if empty, it integrates the rates.
     std::function<std::vector<double>(double t, const double* state)> speeds = {};
 
     bool any() const { return std::find(events.begin(), events.end(), true) != events.end(); }
+    int last_of(std::size_t event) const { return event < last.size() ? last[event] : 0; }
     bool has(std::size_t event) const { return event < events.size() && events[event]; }
 };
 

@@ -123,6 +123,15 @@ public:
                 down = slope_alone(sides, k, -1);
             }
             const double size = std::abs(up) + std::abs(down);
+            if (size == 0 && !stands_[static_cast<std::size_t>(k)] && size_alone(sides, k) == 0) {
+                // Nothing pushes it yet, on either side, as |x'| at the start of a slow push: where it goes later
+                // tells.
+                const double later = slope_later(one, k), beside = slope_later(other, k);
+                if (later * beside > 0) {
+                    allow(sides[k] * later > 0 ? 1 : -HUGE_VAL);
+                    continue;
+                }
+            }
             double margin;
             if (size <= held_back * size_alone(sides, k)) {  // others that stick hold it
                 allow(sides[k] == 0 ? 1 - at.share(k) / at.bound(k) : 0);
@@ -171,6 +180,17 @@ private:
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         return decisive(at, k);
+    }
+
+    /// The same a moment later.
+    double slope_later(const SlidingMode& sides, int k) const {
+        const double moment = 1e-7 * std::max(1.0, std::abs(t_));
+        SwitchSides at(system_, sides, static_cast<int>(state_.size()));
+        at.evaluate(t_, state_.data());
+        std::vector<double> then = state_;
+        for (std::size_t i = 0; i < then.size(); ++i) then[i] += moment * at.rate()[i];
+        at.evaluate(t_ + moment, then.data());
+        return at.slope(k);
     }
 
     /// The rate that decides to which side a function goes.

@@ -66,6 +66,15 @@ public:
         jumps_ += work + (b.total - b.jacobi) - (a.total - a.jacobi);
     }
 
+    /// To be called when numbers on which the energy depends, but no rates, have been set.
+    void set(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* before,
+             const double* after) {
+        const std::vector<double> still(static_cast<std::size_t>(size_), 0.0);
+        const Energies a = energies(table, par, t, before, still.data()),
+                       b = energies(table, par, t, after, still.data());
+        jumps_ += b.total - a.total;
+    }
+
     /// The same departures relative to the largest kinetic energy, for motions so small that E is nearly all
     /// potential energy. The divisor is at least 1e-10 of E, since rounding limits how well E is known, and for
     /// the balance at least 1e-4 of the work.

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+// `[states]`, z' = an expression: in runs, derivations, claims, equilibria and code, compared with closed forms
+// and with scipy.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "edits.hpp"
+#include "json.hpp"
+#include "program.hpp"
+#include "shell.hpp"
+
+namespace commands_states {
+
+using namespace alembert::test;
+
+namespace {
+
+/// The bristle of LuGre's friction without slip of its own: z' = x' − |x'| s0/fc z.
+const char* const bristle = R"toml(
+[parameters]
+s0 = 100
+fc = 1
+[coordinates]
+x = { initial = 0, rate = 1 }
+[states]
+z = { rate = "x' - abs(x')*s0/fc*z" }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "-s0*z"
+)toml";
+
+/// A cart that balances a pole by a PI-controller with damping; `more` acts on the cart besides.
+std::string cart_pole(const std::string& start, const std::string& more) {
+    return fmt::format(R"toml(
+gravity = [0, "-g"]
+[parameters]
+M = 1
+m = 0.2
+l = 0.5
+g = 9.81
+kp = 40
+kd = 8
+ki = 20
+k1 = 1
+k2 = 3
+[coordinates]
+x = 0
+th = {{ initial = {} }}
+[states]
+e = {{ rate = "th" }}
+[[particle]]
+name = "C"
+mass = "M"
+position = ["x", 0]
+[[particle]]
+name = "B"
+mass = "m"
+position = ["x + l*sin(th)", "l*cos(th)"]
+[forces]
+x = "kp*th + kd*th' + ki*e{}"
+)toml",
+                       start, more);
+}
+
+/// The armature of a motor that turns a load through a gear.
+const char* const motor = R"toml(
+[parameters]
+L = 0.5
+R = 2
+K = 0.1
+N = 10
+J = 0.05
+b = 0.2
+tau = 0.3
+U = 12
+[coordinates]
+th = { initial = 0, unit = "rad" }
+[states]
+i = { rate = "(U - R*i - K*N*th')/L", unit = "A", about = "current of the armature" }
+[energy]
+kinetic = "J*th'^2/2"
+[forces]
+th = "K*N*i - b*th' - tau"
+[outputs]
+slope = "i'"
+[simulation]
+duration = 2
+tolerance = 1e-13
+)toml";
+
+double state(const Json& motion, const std::string& name) {
+    return motion["final"]["states"][name].get<double>();
+}
+
+}  // namespace
+
+// Numbers of scipy 1.17: DOP853, rtol 3e-14, steps of at most 0.05, and from one zero of x' to the next.
+TEST_CASE("states: the bristle of LuGre's friction moves as scipy says, by methods of all kinds") {
+    const std::string scene = temporary("bristle.toml", bristle);
+    for (const std::string method : {"auto", "dop853", "verner98", "taylor", "radau", "abm"}) {
+        const Json motion = simulated(scene, {"--tolerance", "1e-13", "--method", method});
+        INFO(method);
+        const double allowed = method == "abm" ? 1e-9 : 3e-12;  // abm begins again with small steps at each kink
+        CHECK(std::abs(number(motion["final"], "coordinates", "x") - 0.49991678838069553) < allowed);
+        CHECK(std::abs(number(motion["final"], "rates", "x") + 0.004898300256619055) < allowed);
+        CHECK(std::abs(state(motion, "z") + 9.520829200724168e-05) < allowed);
+        CHECK(motion["work_balance"].get<double>() < 1e-9);
+    }
+}
+
+// Numbers of scipy 1.17: DOP853, rtol 3e-14.
+TEST_CASE("states: a PI-controlled cart-pole moves as scipy says, by methods of all kinds and by all formalisms") {
+    const std::string scene = temporary("cart_pole.toml", cart_pole("0.1", ""));
+    const auto holds = [](const Json& motion, double allowed) {
+        CHECK(std::abs(number(motion["final"], "coordinates", "x") - 0.4528619405746948) < allowed);
+        CHECK(std::abs(number(motion["final"], "coordinates", "th") + 3.7800224645767087e-06) < allowed);
+        CHECK(std::abs(number(motion["final"], "rates", "x") - 0.0010323592843889773) < allowed);
+        CHECK(std::abs(state(motion, "e") - 3.9863432050641655e-06) < allowed);
+    };
+    for (const std::vector<std::string>& how : {std::vector<std::string>{},
+                                                {"--method", "taylor"},
+                                                {"--method", "dopri5"},
+                                                {"--method", "radau"},
+                                                {"--method", "radau13"},
+                                                {"--method", "gauss", "--step", "0.002"},
+                                                {"--code", "compiled"},
+                                                {"--by", "kane"},
+                                                {"--by", "hamilton"},
+                                                {"--by", "recursive"},
+                                                {"--by", "maggi"}}) {
+        std::vector<std::string> more = {"--no-estimate"};
+        if (how.empty() || how[0] != "--method" || how[1] != "gauss")
+            more.insert(more.end(), {"--tolerance", "1e-13"});
+        more.insert(more.end(), how.begin(), how.end());
+        INFO((how.empty() ? "" : how[1]));
+        holds(simulated(scene, more), 1e-11);
+    }
+    CHECK(json_of({"check", scene, "--formalisms"})["verdict"] == "proved");
+}
+
+// x = exp(A t) x0 with 30 digits (mpmath): th, th' and i at t = 2.
+TEST_CASE("states: a motor with a gear moves as its matrix exponential says") {
+    const std::string scene = temporary("motor.toml", motor);
+    const Json motion = simulated(scene);
+    CHECK(std::abs(number(motion["final"], "coordinates", "th") - 15.0157174196814931) < 1e-11);
+    CHECK(std::abs(number(motion["final"], "rates", "th") - 8.13996578051879929) < 1e-11);
+    CHECK(std::abs(state(motion, "i") - 1.92799806878805937) < 1e-12);
+    CHECK(motion["units"]["i"] == "A");
+    const Json now = json_of({"eval", scene, "--at", "i=3", "--at", "th'=1"});
+    CHECK(now["states"]["i"] == 3);
+    CHECK(now["state_rates"]["i"] == doctest::Approx(10));  // (12 − 6 − 1)/0.5
+    CHECK(now["outputs"]["slope"] == doctest::Approx(10));
+    CHECK(now["accelerations"]["th"] == doctest::Approx(50));  // (3 − 0.2 − 0.3)/0.05
+    // ∂/∂i of the end is exp(A t) applied to the unit vector of i, ∂/∂tau its integral: by differences of the
+    // linear motion, which are exact but for the tolerance.
+    const Json slopes = json_of({"simulate", scene, "--sensitivity", "tau,i"})["sensitivity"];
+    REQUIRE(slopes["of"] == Json{"th", "th'", "i"});
+    const Json more =
+        simulated(temporary("more.toml", edited(motor, {{"unit = \"A\"", "initial = 1, unit = \"A\""}})));
+    const Json heavier = simulated(temporary("heavier.toml", edited(motor, {{"tau = 0.3", "tau = 1.3"}})));
+    const auto end = [](const Json& run) {
+        return std::array{number(run["final"], "coordinates", "th"), number(run["final"], "rates", "th"),
+                          state(run, "i")};
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(std::abs(slopes["values"][k][0].get<double>() - (end(heavier)[k] - end(motion)[k])) < 1e-9);
+        CHECK(std::abs(slopes["values"][k][1].get<double>() - (end(more)[k] - end(motion)[k])) < 1e-9);
+    }
+}
+
+TEST_CASE("states: a sweep has them at the end of each motion, packed or not") {
+    const std::string scene = temporary("motor.toml", motor);
+    const Json rows = swept({scene, "--vary", "i=0:2:3", "--along", "max"})["rows"];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Json alone = simulated(temporary(
+            "one.toml", edited(motor, {{"unit = \"A\"", fmt::format("initial = {}, unit = \"A\"", k)}})));
+        CHECK(std::abs(rows[k]["final"]["states"]["i"].get<double>() - state(alone, "i")) < 1e-11);
+        CHECK(rows[k]["along"]["max_i"].get<double>() >= state(alone, "i"));
+    }
+}
+
+TEST_CASE("states: a scene may have states alone") {
+    const std::string scene = temporary("circuit.toml", R"toml(
+[parameters]
+R = 2
+L = 0.5
+U = 3
+[states]
+i = { rate = "(U - R*i)/L" }
+q = { rate = "i", initial = 1 }
+[[event]]
+name = "half"
+when = "i - U/R/2"
+[[claim]]
+equation = "L*i' + R*i = U"
+)toml");
+    const Json motion = simulated(scene, {"--duration", "1", "--tolerance", "1e-13"});
+    CHECK(std::abs(state(motion, "i") - 1.5 * (1 - std::exp(-4.0))) < 1e-13);
+    CHECK(std::abs(state(motion, "q") - 1 - 1.5 * (1 - (1 - std::exp(-4.0)) / 4)) < 1e-13);
+    CHECK(std::abs(motion["events"][0]["time"].get<double>() - std::log(2) / 4) < 1e-13);
+    CHECK(json_of({"check", scene})["claims"][0]["verdict"] == "proved");
+}
+
+TEST_CASE("states: derive prints their rates after the equations of motion, as claims and in LaTeX") {
+    const std::string scene = temporary("motor.toml", motor);
+    const Json shown = json_of({"derive", scene});
+    CHECK(shown["states"] == Json{"i"});
+    CHECK(shown["equations"][0]["text"] == "J*th'' = -b*th' + K*N*i - tau");
+    const std::string rate = shown["state_rates"][0]["text"];
+    const std::string claims =
+        temporary("claims.txt", rate + "\n" + "L*i' = U - R*i + K*N*th'\n" + "(L*i)' + R*i + K*N*th' = U\n" +
+                                    "L*i'' = -R*i' - K*N*th''\n" + "J*th'' = K*N*i - b*th' - tau\n");
+    const Json checked = json_of({"check", scene, claims}, {}, 1)["claims"];
+    const std::vector<std::string> verdicts = {"proved", "refuted", "proved", "proved", "proved"};
+    for (std::size_t k = 0; k < verdicts.size(); ++k) CHECK(checked[k]["verdict"] == verdicts[k]);
+    CHECK(checked[1]["counterexample"].contains("i"));
+    const Run latex = run({"derive", scene, "--format", "latex", "--steps"});
+    CHECK(latex.out.find("\\dot{i}") != std::string::npos);
+    const Run chinese = run({"derive", scene, "--language", "zh"});
+    CHECK(chinese.out.find("其中状态的变化率") != std::string::npos);
+}
+
+// M l s³ + kd s² + (kp − (M + m) g) s + ki for the angle alone, beside the cart's free speed: Hurwitz's
+// determinant is kd (kp − (M + m) g) − M l ki.
+TEST_CASE("states: a PI-controlled cart-pole has Hurwitz's conditions in its gains, and is unstable beyond them") {
+    const std::string scene = temporary("still.toml", cart_pole("0", ""));
+    const Json judged = json_of({"stability", scene});
+    CHECK(judged["theorem"] == "Lyapunov-Malkin");
+    std::string conditions;
+    for (const Json& condition : judged["conditions"]) conditions += condition.get<std::string>() + "; ";
+    INFO(conditions);
+    CHECK(conditions.find("ki > 0") != std::string::npos);
+    CHECK(conditions.find("kd > 0") != std::string::npos);
+    // At the boundary of the third: kd (kp − 1.2·9.81) = M l ki with ki = 451.648.
+    CHECK(run({"stability", scene, "--at", "ki=451.6"}).exit == 0);
+    CHECK(run({"stability", scene, "--at", "ki=451.7"}).exit == 1);
+    // With the integral of x: five roots, whose sum is −(kd − l k2)/(M l) and whose product is −g ki/(M l).
+    const std::string held =
+        temporary("position.toml", edited(cart_pole("0", " + k1*x + k2*x'"), {{"rate = \"th\"", "rate = \"x\""}}));
+    const Json near = json_of({"stability", held, "--at", "ki=0.2"});
+    CHECK(near["verdict"] == "asymptotically stable");
+    CHECK(near["states"] == Json{"x", "th", "x'", "th'", "e"});
+    CHECK(near["conditions"].size() == 5);
+    std::complex<double> sum = 0, product = 1;
+    for (const Json& value : near["eigenvalues"]) {
+        const std::complex<double> root(value[0].get<double>(), value[1].get<double>());
+        sum += root;
+        product *= root;
+    }
+    CHECK(std::abs(sum + (8 - 0.5 * 3) / 0.5) < 1e-10);
+    CHECK(std::abs(product + 9.81 * 0.2 / 0.5) < 1e-10);
+}
+
+// A state that holds a constant: the integral of the angle takes the load, e = load/ki.
+TEST_CASE("states: an equilibrium has the values of the states that balance a load") {
+    const char* const integral = R"toml(
+[parameters]
+J = 2
+load = 3
+kp = 5
+kd = 4
+ki = 1.5
+[coordinates]
+th = 0.2
+[states]
+e = { rate = "th" }
+[energy]
+kinetic = "J*th'^2/2"
+[forces]
+th = "load - kp*th - kd*th' - ki*e"
+)toml";
+    const std::string scene = temporary("held.toml", integral);
+    const Json one = json_of({"equilibrium", scene})["equilibria"][0];
+    CHECK(std::abs(one["coordinates"]["th"].get<double>()) < 1e-12);
+    CHECK(std::abs(one["states"]["e"].get<double>() - 2) < 1e-12);
+    CHECK(one["stable"] == "yes");
+    // J s³ + kd s² + kp s + ki
+    const Json judged =
+        json_of({"stability", temporary("balanced.toml", edited(integral, {{"th = 0.2", "th = 0"},
+                                                                           {"rate = \"th\"",
+                                                                            "rate = \"th\", "
+                                                                            "initial = \"load/ki\""}}))});
+    CHECK(judged["verdict"] == "asymptotically stable");
+    CHECK(judged["conditions"] == Json{"ki > 0", "kd > 0", "kp*kd - J*ki > 0"});
+}
+
+TEST_CASE("states: what they cannot be is refused where it stands") {
+    const auto refusal = [](const std::string& text) {
+        const Run result = run({"derive", temporary("wrong.toml", text)});
+        CHECK(result.exit == 3);
+        return result.err;
+    };
+    const std::string particle = "[[particle]]\nname = \"p\"\nmass = 1\nposition = [\"x\", \"z\"]\n";
+    CHECK(refusal("[coordinates]\nx = 0\n[states]\nz = { rate = \"x'\" }\n" + particle)
+              .find("make z a coordinate") != std::string::npos);
+    CHECK(refusal("[coordinates]\nx = 0\n[states]\nz = { rate = \"x''\" }\n").find("accelerations") !=
+          std::string::npos);
+    CHECK(refusal("[coordinates]\nx = 0\n[states]\nz = { rate = \"w'\" }\nw = { rate = \"z'\" }\n" + particle)
+              .find("determined by itself") != std::string::npos);
+    CHECK(refusal("[coordinates]\nx = 0\n[states]\nz = 3\n").find("expected its rate") != std::string::npos);
+    CHECK(refusal("[coordinates]\nx = 0\n[states]\nx = { rate = \"1\" }\n").find("is taken") != std::string::npos);
+}
+
+}  // namespace commands_states
