@@ -20,6 +20,7 @@
 #include "base/language/libraries.hpp"
 #include "commands/command_line.hpp"
 #include "commands/streams.hpp"
+#include "commands/verb.hpp"
 #include "present/report/derivation.hpp"
 #include "present/report/motion_plot.hpp"
 #include "present/report/run.hpp"
@@ -96,10 +97,10 @@ template <typename Value>
 using Held = std::unique_ptr<Value, DestroyedInTurn<Value>>;
 
 Held<Motion> simulated(const std::string& text, const std::string& file, RunOptions wishes,
-                       const std::string& section) {
+                       const std::string& section, const GivenValues& given) {
     const SymbolicTurn turn;
     wishes.progress = look_for_interrupt;
-    Scene scene = parse_scene(text, file);
+    Scene scene = with_given(parse_scene(text, file), given);
     if (!section.empty()) {
         Prepared begun = prepared(std::move(scene));
         scene = std::move(begun.scene);
@@ -123,9 +124,9 @@ CompiledSystem compiled_system(std::string source) {
     return {std::move(module), std::move(source)};
 }
 
-/// The names of coordinates, speeds and parameters as the scene writes them; those in the tables of emitted code
-/// are identifiers of C++.
-using SystemNames = std::array<std::vector<std::string>, 3>;
+/// The names of coordinates, speeds, parameters and of inputs among these as the scene writes them; those in the
+/// tables of emitted code are identifiers of C++.
+using SystemNames = std::array<std::vector<std::string>, 4>;
 
 std::tuple<CompiledSystem, Warnings, SystemNames> system_of(const std::string& text, const std::string& file,
                                                             const std::string& by, bool jacobian,
@@ -141,9 +142,14 @@ std::tuple<CompiledSystem, Warnings, SystemNames> system_of(const std::string& t
             for (const Quantity& quantity : *list) of_scene[k].push_back(quantity.name);
             ++k;
         }
+        for (const Quantity& parameter : program.parameters)
+            if (parameter.from_outside) of_scene[3].push_back(parameter.name);
         return std::tuple(std::move(emitted.source.text), std::move(emitted.warnings), std::move(of_scene));
     });
-    return {compiled_system(std::move(source)), std::move(warnings), std::move(names)};
+    CompiledSystem system = compiled_system(std::move(source));
+    const auto first = std::find(names[2].begin(), names[2].end(), names[3].empty() ? "" : names[3].front());
+    system.take_inputs(static_cast<std::size_t>(first - names[2].begin()), names[3].size());
+    return {std::move(system), std::move(warnings), std::move(names)};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -198,7 +204,17 @@ py::array_t<double> mapped(const py::object& t, const Numbers& states, int width
 }
 
 /// The case that solvers of ordinary differential equations call: one state, in as few instructions as possible.
-py::array_t<double> right_hand_side(const CompiledSystem& s, const py::object& t, const Numbers& states) {
+/// With other inputs from outside where they are given, one number for each.
+CompiledSystem with_inputs(const CompiledSystem& s, const py::object& inputs) {
+    if (inputs.is_none()) return s;
+    const auto values = inputs.cast<Numbers>();
+    return s.with_inputs({values.data(), values.data() + values.size()});
+}
+
+py::array_t<double> right_hand_side(const CompiledSystem& system, const py::object& t, const Numbers& states,
+                                    const py::object& inputs) {
+    if (!inputs.is_none()) return right_hand_side(with_inputs(system, inputs), t, states, py::none());
+    const CompiledSystem& s = system;
     const int n = s.dimension();
     if (states.ndim() == 1 && states.shape(0) == n && PyFloat_Check(t.ptr())) {
         py::array_t<double> result = new_array({n});
@@ -283,7 +299,7 @@ py::array_t<double> states_at(Motion& motion, const Numbers& t) {
     return result;
 }
 
-void add_verbs(py::module_& module) {
+void add_answers(py::module_& module) {
     module.def("ask", asked);
     module.def("derive",
                [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
@@ -291,33 +307,33 @@ void add_verbs(py::module_& module) {
                    return Held<DerivedScene>(
                        new DerivedScene(derive(parse_scene(text, file), {.by = by, .reactions = reactions})));
                });
-    module.def(
-        "simulate",
-        [](const std::string& text, const std::string& file, const std::string& by, const std::string& method,
-           const std::array<std::optional<double>, 5>& numbers, long budget, bool estimate, bool reactions,
-           bool fast_math, const std::string& section, const std::string& code,
-           const std::vector<std::string>& sensitivity, const std::vector<std::string>& sensitivity_of,
-           bool sensitivity_rows, bool regularize, bool tuning) {
-            return simulated(text, file,
-                             {.by = by,
-                              .method = method,
-                              .code = code,
-                              .duration = numbers[0],
-                              .tolerance = numbers[1],
-                              .step = numbers[2],
-                              .sample = numbers[3],
-                              .max_step = numbers[4],
-                              .budget = budget,
-                              .fast_math = fast_math,
-                              .estimate = estimate,
-                              .tuning = tuning,
-                              .regularize = regularize,
-                              .reactions = reactions,
-                              .sensitivity = sensitivity,
-                              .sensitivity_of = sensitivity_of,
-                              .sensitivity_rows = sensitivity_rows},
-                             section);
-        });
+    module.def("simulate",
+               [](const std::string& text, const std::string& file, const std::string& by,
+                  const std::string& method, const std::array<std::optional<double>, 5>& numbers, long budget,
+                  bool estimate, bool reactions, bool fast_math, const std::string& section,
+                  const std::string& code, const std::vector<std::string>& sensitivity,
+                  const std::vector<std::string>& sensitivity_of, bool sensitivity_rows, bool regularize,
+                  bool tuning, const std::vector<std::string>& at, const std::vector<std::string>& inputs) {
+                   return simulated(text, file,
+                                    {.by = by,
+                                     .method = method,
+                                     .code = code,
+                                     .duration = numbers[0],
+                                     .tolerance = numbers[1],
+                                     .step = numbers[2],
+                                     .sample = numbers[3],
+                                     .max_step = numbers[4],
+                                     .budget = budget,
+                                     .fast_math = fast_math,
+                                     .estimate = estimate,
+                                     .tuning = tuning,
+                                     .regularize = regularize,
+                                     .reactions = reactions,
+                                     .sensitivity = sensitivity,
+                                     .sensitivity_of = sensitivity_of,
+                                     .sensitivity_rows = sensitivity_rows},
+                                    section, {.at = at, .inputs = inputs});
+               });
     module.def("system", system_of);
     module.def("command_line", [](const std::vector<std::string>& args) {
         const py::gil_scoped_release release;
@@ -382,27 +398,37 @@ void add_system(py::module_& module) {
         .def_property_readonly("parameter_values", &CompiledSystem::parameter_values)
         .def_property_readonly("source", &CompiledSystem::source)
         .def("set_parameters", &CompiledSystem::set_parameters)
-        .def(py::pickle([](const CompiledSystem& s) { return std::pair(s.source(), s.parameter_values()); },
-                        [](const std::pair<std::string, std::vector<double>>& state) {
-                            CompiledSystem s = compiled_system(state.first);
-                            s.set_parameters(state.second);
-                            return s;
-                        }))
-        .def("rhs", right_hand_side)
-        .def("jacobian",
-             [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
-                 const int n = s.dimension();
-                 return mapped(t, states, n, {n, n},
-                               [s](const std::vector<double>& times, const double* in, std::size_t count,
-                                   double* out) { s.jacobian_of_many(times, in, count, out); });
-             })
-        .def("mass_matrix",
-             [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
-                 const int k = s.speed_count();
-                 return mapped(t, states, s.dimension(), {k, k},
-                               [s](const std::vector<double>& times, const double* in, std::size_t count,
-                                   double* out) { s.mass_of_many(times, in, count, out, nullptr); });
-             })
+        .def(py::pickle(
+            [](const CompiledSystem& s) { return std::tuple(s.source(), s.parameter_values(), s.inputs()); },
+            [](const std::tuple<std::string, std::vector<double>, std::pair<std::size_t, std::size_t>>& state) {
+                CompiledSystem s = compiled_system(std::get<0>(state));
+                s.set_parameters(std::get<1>(state));
+                s.take_inputs(std::get<2>(state).first, std::get<2>(state).second);
+                return s;
+            }))
+        .def("rhs", right_hand_side, py::arg("t"), py::arg("y"), py::arg("inputs") = py::none())
+        .def(
+            "jacobian",
+            [](const CompiledSystem& system, const py::object& t, const Numbers& states,
+               const py::object& inputs) {
+                const CompiledSystem s = with_inputs(system, inputs);
+                const int n = s.dimension();
+                return mapped(t, states, n, {n, n},
+                              [s](const std::vector<double>& times, const double* in, std::size_t count,
+                                  double* out) { s.jacobian_of_many(times, in, count, out); });
+            },
+            py::arg("t"), py::arg("y"), py::arg("inputs") = py::none())
+        .def(
+            "mass_matrix",
+            [](const CompiledSystem& system, const py::object& t, const Numbers& states,
+               const py::object& inputs) {
+                const CompiledSystem s = with_inputs(system, inputs);
+                const int k = s.speed_count();
+                return mapped(t, states, s.dimension(), {k, k},
+                              [s](const std::vector<double>& times, const double* in, std::size_t count,
+                                  double* out) { s.mass_of_many(times, in, count, out, nullptr); });
+            },
+            py::arg("t"), py::arg("y"), py::arg("inputs") = py::none())
         .def_property_readonly("functions", &CompiledSystem::function_names)
         .def("function_shape",
              [](const CompiledSystem& s, int which) {
@@ -410,12 +436,16 @@ void add_system(py::module_& module) {
                  return std::tuple(f.rows, f.columns, f.operations);
              })
         .def("call", robot_function)
-        .def("energy", [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
-            return mapped(t, states, s.dimension(), {3},
-                          [s](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
-                              s.energy_of_many(times, in, count, out);
-                          });
-        });
+        .def(
+            "energy",
+            [](const CompiledSystem& system, const py::object& t, const Numbers& states,
+               const py::object& inputs) {
+                const CompiledSystem s = with_inputs(system, inputs);
+                return mapped(t, states, s.dimension(), {3},
+                              [s](const std::vector<double>& times, const double* in, std::size_t count,
+                                  double* out) { s.energy_of_many(times, in, count, out); });
+            },
+            py::arg("t"), py::arg("y"), py::arg("inputs") = py::none());
 }
 
 }  // namespace
@@ -425,7 +455,7 @@ void add_system(py::module_& module) {
 PYBIND11_MODULE(_alembert, module) {
     module.attr("version") = ALEMBERT_VERSION;
     alembert::add_errors(module);
-    alembert::add_verbs(module);
+    alembert::add_answers(module);
     alembert::add_motion(module);
     alembert::add_system(module);
 }

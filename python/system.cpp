@@ -95,6 +95,19 @@ void CompiledSystem::set_parameters(const std::vector<double>& values) {
     parameters_ = std::make_shared<const Parameters>(Parameters{values, prepared(module_, values)});
 }
 
+CompiledSystem CompiledSystem::with_inputs(const std::vector<double>& values) const {
+    const auto [first, count] = inputs_;
+    if (values.size() != count)
+        throw std::invalid_argument(
+            fmt::format("{} values for {} inputs from outside; one for each is wanted", values.size(), count));
+    Parameters given = *parameters_;
+    for (std::vector<double>* const list : {&given.values, &given.prepared})
+        std::copy(values.begin(), values.end(), list->begin() + static_cast<std::ptrdiff_t>(first));
+    CompiledSystem result = *this;
+    result.parameters_ = std::make_shared<const Parameters>(std::move(given));
+    return result;
+}
+
 void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from,
                                   std::size_t to, double* rates) const {
     const auto width = static_cast<std::size_t>(dimension());

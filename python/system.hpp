@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "alembert/native/module.hpp"
@@ -30,6 +31,13 @@ public:
 
     /// Throws std::invalid_argument for a number of values that is not that of the parameters.
     void set_parameters(const std::vector<double>& values);
+
+    /// Which of the parameters are inputs from outside: the first of them, and how many. Nothing that `prepare`
+    /// computes depends on them.
+    void take_inputs(std::size_t first, std::size_t count) { inputs_ = {first, count}; }
+    std::pair<std::size_t, std::size_t> inputs() const { return inputs_; }
+    /// The same system with these values of its inputs. Throws std::invalid_argument for another number of values.
+    CompiledSystem with_inputs(const std::vector<double>& values) const;
 
     void rhs(double t, const double* state, double* rate) const { module_.table().rhs(t, state, par(), rate); }
     void rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
@@ -71,6 +79,7 @@ private:
     Module module_;
     std::shared_ptr<const std::string> source_;
     int n_, s_;
+    std::pair<std::size_t, std::size_t> inputs_ = {0, 0};
     std::shared_ptr<const Parameters> parameters_;
 };
 

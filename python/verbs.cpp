@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "alembert/base/argument.hpp"
+#include "analysis/state/given_values.hpp"
 #include "commands/import.hpp"
 #include "commands/sweep_table.hpp"
 #include "commands/verb.hpp"
@@ -98,6 +99,10 @@ public:
         std::vector<Axis> result;
         for (const Json& one : options_.at(name)) result.push_back(axis_of(one, count));
         return result;
+    }
+    /// The scene with the values and the functions of inputs that are given for a run.
+    Scene given(Scene scene) const {
+        return with_values(with_given(std::move(scene), {.inputs = texts("input")}), at());
     }
     RunOptions run_options() const {
         return {.by = by(),
@@ -339,7 +344,7 @@ Answer do_sweep(Scene scene, const Asked& asked) {
     Json points = Json::object();
     if (samples > 0)
         points = {{"samples", samples}, {"sampling", asked.text("sampling")}, {"seed", asked.whole("seed", 0)}};
-    SweepJob job({.scene = std::move(scene),
+    SweepJob job({.scene = asked.given(std::move(scene)),
                   .grid = samples > 0 ? samples_asked(asked, samples) : listed_points(asked),
                   .wishes = asked.run_options(),
                   .along = asked.text("along"),
@@ -371,7 +376,7 @@ Answer do_bench(Scene scene, const Asked& asked) {
     BenchOptions options{.wishes = asked.run_options(), .peers = asked.flag("peers")};
     options.most_seconds = asked.number("run_seconds", options.most_seconds);
     options.reference_seconds = asked.number("reference_seconds", options.reference_seconds);
-    return drawn(bench(std::move(scene), options));
+    return drawn(bench(asked.given(std::move(scene)), options));
 }
 
 Answer do_report(Scene scene, const Asked& asked) {
@@ -381,7 +386,7 @@ Answer do_report(Scene scene, const Asked& asked) {
                             .section = asked.text("poincare"),
                             .measures = asked.flag("bench")};
     options.wishes.budget = static_cast<long>(asked.number("budget", 3'000'000));
-    const Overview all = overview(std::move(scene), options);
+    const Overview all = overview(asked.given(std::move(scene)), options);
     return {.json = Json::object(),
             .warnings = all.warnings,
             .files = {{"html", as_html(all, {.version = ALEMBERT_VERSION, .by = asked.by()})}}};

@@ -80,7 +80,7 @@ forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
 forbid 'GiNaC in straight-line code' '#include.*(ginac|"(algebra|model|program/lower)/)' "${graph[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
-mapfile -t not_options < <(files lib generator | grep -v -e '^generator/commands/\(verb.cpp\|help\|command_line.cpp\)')
+mapfile -t not_options < <(files lib generator | grep -v -e '^generator/commands/\(verb.cpp\|help\|option_rules.cpp\|command_line.cpp\)')
 forbid 'CLI11 outside the files that walk through all verbs' '#include.*CLI' "${not_options[@]}"
 mapfile -t not_urdf < <(files lib generator | grep -v '^generator/scene/import/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"

@@ -355,7 +355,6 @@ TEST_CASE("fmu: what a unit cannot follow is refused, with what to do") {
         CHECK(result.exit == 3);
         CHECK_MESSAGE(result.err.find(words) != std::string::npos, result.err);
     };
-    refused("scenes/textbook/bouncing_ball.toml", "[[unilateral]]");
     refused("scenes/friction/block_on_slope.toml", "[[friction]]");
     const auto named = run({"fmu", source_path("scenes/textbook/slider_crank.toml"), "-o", file_name("unit.zip")});
     CHECK(named.exit == 3);

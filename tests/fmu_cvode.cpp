@@ -281,6 +281,25 @@ TEST_CASE("fmu: a ball that loses height bounces under any step of the importer"
     }
 }
 
+TEST_CASE("fmu: a ball on a contact bounces, comes to rest and lies under any step of the importer") {
+    const std::string scene = source_path("scenes/textbook/bouncing_ball.toml");
+    for (const int version : {2, 3}) {
+        CAPTURE(version);
+        const Unit unit = exported(scene, version);
+        for (const double end : {2.0, 4.0}) {
+            const Json wanted = simulated(scene, end);
+            for (const double interval : {4.0, 0.5, 0.0371}) {
+                CAPTURE(interval);
+                Instance one(unit, false, 1e-9);
+                one.begin();
+                follow(one, end, interval, 1e-10);
+                CHECK(difference(one, wanted) < 1e-6);
+                CHECK(std::abs(one.get("lambda_floor") - (end > 3 ? 0.5 * 9.81 : 0)) < 1e-9);
+            }
+        }
+    }
+}
+
 // A hop as small as the errors of the importer: behind the floor, although it moves up from it.
 TEST_CASE("fmu: impulses that follow each other without end are an error, and no way through a floor") {
     for (const int version : {2, 3}) {

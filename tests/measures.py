@@ -23,7 +23,7 @@ TABLES = {
     # The C function of alembert_series_table, with one more argument in the register that its machine code fills.
     ("generator/codegen/machine/memory_series.cpp", "expand"),
     # The arguments that Python's `simulate` hands over, one by one.
-    ("python/module.cpp", "add_verbs (lambda)"),
+    ("python/module.cpp", "add_answers (lambda)"),
 }
 
 Function = collections.namedtuple("Function", "file line name lines parameters")

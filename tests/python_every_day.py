@@ -99,6 +99,26 @@ class EveryDay(unittest.TestCase):
         self.assertEqual(type(2 * run.final["coordinates"]["theta"]), float)
         self.assertEqual(scene.eval(scene.eval().coordinates).coordinates["theta"], scene.eval().coordinates["theta"])
 
+    def test_values_and_inputs_are_given_for_one_call(self):
+        text = ("[parameters]\nm = 2\n[inputs]\nu = { value = 1, given = \"outside\" }\n[coordinates]\nx = 0\n[[particle]]\n"
+                "name = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n[forces]\nx = \"u\"\n[simulation]\nduration = 2\n")
+        scene = alembert.Scene(text=text)
+        end = lambda run: run.final["coordinates"]["x"]
+        self.assertAlmostEqual(end(scene.simulate()), 1)
+        self.assertAlmostEqual(end(scene.simulate(at={"m": 1, "x": 3, "x'": 1})), 3 + 2 + 2)
+        self.assertAlmostEqual(end(scene.simulate(input={"u": "6*t"})), 4)
+        self.assertAlmostEqual(scene.sweep({"m": [1, 2]}, input={"u": 4})["final_x"][1], 4)
+        system = scene.system()
+        self.assertEqual((system.inputs, system.parameters), (["u"], {"m": 2}))
+        self.assertEqual(list(system.rhs(0.0, [0.0, 0.0])), [0, 0.5])
+        self.assertEqual(list(system.rhs(0.0, [0.0, 0.0], [5])), [0, 2.5])
+        system.set(m=4)
+        self.assertEqual(list(system.rhs(0.0, [0.0, 0.0])), [0, 0.25])
+        again = pickle.loads(pickle.dumps(system))
+        self.assertEqual(list(again.rhs(0.0, [0.0, 0.0], [8])), [0, 2])
+        with self.assertRaisesRegex(ValueError, "2 values for 1 input"):
+            system.rhs(0.0, [0.0, 0.0], [1, 2])
+
     def test_attributes_of_scenes_without_contacts_and_columns_have_names_of_their_own(self):
         scene = alembert.Scene(PENDULUM)
         self.assertEqual(scene.simulate(1).contacts, [])

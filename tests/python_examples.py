@@ -43,6 +43,13 @@ class Examples(unittest.TestCase):
             told = printed("with_casadi.py", folder)
         self.assertTrue(told.startswith("compiled: crane.c, crane.h, crane_casadi.c\n"), told)
 
+    def test_a_loop_is_closed_outside_of_the_program(self):
+        self.assertEqual(printed("closed_loop.py"),
+                         "inputs from outside: F\n"
+                         "the trolley is 0.000 m from its goal, the rope 0.000 rad from the vertical\n"
+                         "the largest force was 160 N\n"
+                         "a constant force gives the same motion: True\n")  # yapf: disable
+
     def test_an_arm_follows_its_circle(self):
         self.assertEqual(printed("arm.py"),
                          "without a load the hand is 0 mm from the circle\n"

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "present/report/bench.hpp"
+
+#include <algorithm>
+#include <iostream>
+
 #include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
@@ -14,6 +18,7 @@ namespace {
 
 struct BenchVerb : SceneOptions {
     BenchOptions options;
+    GivenValues given;
     std::string csv, svg;
 };
 
@@ -24,7 +29,7 @@ int run(const BenchVerb& verb) {
     options.wishes.by = verb.by;
     Progress progress;
     options.wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Bench measured = bench(scene_of(verb.scene), options);
+    const Bench measured = bench(with_given(scene_of(verb.scene), verb.given), options);
     progress.wipe();
     warn(measured.warnings);
     if (!verb.csv.empty()) write_file(verb.csv, as_csv(measured), {verb.scene});
@@ -33,6 +38,12 @@ int run(const BenchVerb& verb) {
         show(as_json(measured));
     else
         show(as_text(measured));
+    const auto failed = [](const Measured& one) { return !one.failure.empty(); };
+    if (!measured.runs.empty() && std::all_of(measured.runs.begin(), measured.runs.end(), failed)) {
+        std::cout.flush();
+        warn({say("{}: no run has reached the end: {}\n", verb.scene, measured.runs.front().failure)});
+        return 4;
+    }
     return 0;
 }
 
@@ -46,6 +57,7 @@ void add_bench(CLI::App& app, Chosen& chosen) {
          .example = "alembert bench scenes/textbook/crane.toml --duration 1 --method dop853"},
         run, [](Verb& verb, BenchVerb& bench) {
             RunOptions& wishes = bench.options.wishes;
+            add_given_values(verb, bench.given);
             verb.add_flag("--peers", bench.options.peers,
                           say("also CVODE, IDA, odeint, GSL, where they are installed"));
             verb.take("--output", bench.csv, say("table as CSV"));

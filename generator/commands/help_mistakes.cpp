@@ -61,9 +61,25 @@ std::string with_plain_dash(std::string word) {
     return word;
 }
 
+/// A value that is empty, or given to an option that has none: CLI11 reads `--steps=false` as if it were not
+/// there.
+std::string mistake_in_value(const CLI::App& verb, const std::vector<std::string>& words, std::size_t k) {
+    const std::size_t equals = words[k].find('=');
+    const std::string name = words[k].substr(0, equals);
+    const CLI::Option* const option = option_of(verb, name);
+    if (option == nullptr) return {};
+    const bool takes_none = option->get_expected_max() == 0;
+    if (takes_none) return equals == std::string::npos ? "" : say("{} takes no value", name);
+    const bool is_empty =
+        equals != std::string::npos ? equals + 1 == words[k].size() : k + 1 < words.size() && words[k + 1].empty();
+    return is_empty ? say("{} is given an empty value; leave it out, or give one", name) : "";
+}
+
 std::string mistake_in_options(const CLI::App& verb, const std::vector<std::string>& words) {
     const std::vector<std::string> known = names_of_options(verb);
     for (std::size_t k = 1; k < words.size() && words[k] != "--"; ++k) {
+        if (const std::string mistake = mistake_in_value(verb, words, k); !mistake.empty())
+            return mistake + "\n" + about_verb(verb) + "\n";
         const std::string typed = words[k].substr(0, words[k].find('=')), name = with_plain_dash(typed);
         const bool is_long = name.starts_with("--") && name.size() > 2;
         const bool is_short_for_long =

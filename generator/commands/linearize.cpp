@@ -48,10 +48,10 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
             verb.take("--full", options.full);
             verb.add_flag("--affine", options.affine, say("about any state: x' = A dx + B du + c"));
             verb.add_flag("--along", options.along, say("the same along the motion from the state"));
-            verb.take("--duration", options.motion.duration).needs("--along");
-            verb.take("--tolerance", options.motion.tolerance).needs("--along");
-            verb.take("--sample", options.motion.sample).needs("--along");
-            verb.take("--output", options.output, say("CSV file of A, B and c along the motion")).needs("--along");
+            verb.take("--duration", options.motion.duration);
+            verb.take("--tolerance", options.motion.tolerance);
+            verb.take("--sample", options.motion.sample);
+            verb.take("--output", options.output, say("CSV file of A, B and c along the motion"));
         });
 }
 

@@ -21,6 +21,7 @@ std::vector<SharedOption> all_options() {
         {"--by", values::formalism, say("the formalism; default: the program chooses")},
         {"--at", values::assignment,
          say("sets a coordinate, a rate (\"theta1'=1\"), a parameter, an input, t; pi/2 is read")},
+        {"--input", values::assignment, say("u=FILE.csv or u=EXPRESSION, for an input from outside")},
         {"--vary,--over,--follow", values::interval, {}},
         {"--of", values::names, say("frames, bodies and points, as in A,P; default: all")},
         {"--format", values::format, say("text (default), latex or mathml")},

@@ -19,6 +19,7 @@ namespace {
 
 struct ReportVerb : SceneOptions {
     std::string output;
+    GivenValues given;
     RunOptions wishes{.budget = 3'000'000};
     bool moves = true, measures = false, opens = false;
     std::string section;
@@ -49,7 +50,9 @@ int run(const ReportVerb& given) {
     options.wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     std::optional<Overview> all;
     try {
-        all = overview(read_scene(verb.scene), options);
+        all =
+            overview(with_given(are_warnings_errors() ? scene_of(verb.scene) : read_scene(verb.scene), verb.given),
+                     options);
     } catch (const SceneError& mistake) {
         report_mistake(verb, mistake.what());
     } catch (const ModelError& mistake) {
@@ -85,6 +88,7 @@ void add_report(CLI::App& app, Chosen& chosen) {
                             say("the page, HTML; default: the scene's name with .html, in this folder"))
                 .type_name(values::file);
             verb.take("--by", options.by);
+            add_given_values(verb, options.given);
             verb.take("--duration", options.wishes.duration);
             verb.take("--budget", options.wishes.budget, say("evaluations of the motion, at most"));
             verb.take("--poincare", options.section);

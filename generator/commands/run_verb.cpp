@@ -9,6 +9,7 @@ namespace alembert {
 
 void add_run_options(Verb& verb, RunVerb& options) {
     RunOptions& w = options.wishes;
+    add_given_values(verb, options.given);
     verb.take("--duration", w.duration);
     verb.take("--tolerance", w.tolerance);
     verb.take("--method", w.method);

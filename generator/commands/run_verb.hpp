@@ -10,10 +10,12 @@ namespace alembert {
 
 struct RunVerb : SceneOptions {
     RunOptions wishes;
+    GivenValues given;
     std::string output;  ///< a CSV file; empty for none
 };
 
-/// --duration, --tolerance, --method, --step, -o, --max-step, --budget, --code, --fast-math, --no-tuning, --by.
+/// --at, --input, --duration, --tolerance, --method, --step, -o, --max-step, --budget, --code, --fast-math,
+/// --no-tuning, --by.
 void add_run_options(Verb& verb, RunVerb& options);
 
 /// "theta1, energy" as names; none if it is empty. Throws ModelError if a name between commas is missing.

@@ -40,7 +40,7 @@ int run(const SimulateVerb& verb) {
     wishes.by = verb.by;
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    Scene scene = scene_of(verb.scene);
+    Scene scene = with_given(scene_of(verb.scene), verb.given);
     wishes.columns = shown_names(in_words_of(scene, verb.show));
     wishes.sensitivity = names_of(in_words_of(scene, verb.sensitivity));
     wishes.sensitivity_of = names_of(in_words_of(scene, verb.wanted));
@@ -86,14 +86,13 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.take("--sample", options.wishes.sample);
             verb.add_flag("--digits", options.all_digits, say("the values at the end with all 16 digits"));
             verb.take("--svg", options.plot, say("SVG picture of the motion over time; - for text"));
-            verb.take("--show", options.show).needs("--svg");
+            verb.take("--show", options.show);
             verb.take("--poincare", options.section);
             verb.add_option("--sensitivity", options.sensitivity,
                             say("derivatives of the end by initial values, parameters"))
                 .type_name(values::names);
             verb.add_option("--sensitivity-of", options.wanted, say("of these components and outputs alone"))
-                .type_name(values::names)
-                .needs("--sensitivity");
+                .type_name(values::names);
             verb.add_flag("--regularize", options.wishes.regularize, say("short steps near collisions"));
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));

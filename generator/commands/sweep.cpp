@@ -62,8 +62,13 @@ Json points_as_json(const SweepVerb& verb) {
 SweepRequest request_of(const SweepVerb& verb, Scene scene, const std::string& journal = {}) {
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
+    scene = with_given(std::move(scene), verb.given);
     wishes.columns = shown_names(in_words_of(scene, verb.show));
     Grid points = points_of(verb, scene);
+    for (const Axis& axis : points.axes)
+        for (const auto& [name, value] : overrides_of(verb.given.at, scene))
+            if (axis.name == name)
+                throw ModelError(say("'{}' is varied, and --at gives it one value; leave one out", name));
     return {.scene = std::move(scene),
             .grid = std::move(points),
             .wishes = std::move(wishes),
@@ -234,12 +239,10 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                 .type_name(values::count)
                 .between(1, 2147483647);
             verb.add_option("--sampling", options.sampling, say("how they lie: sobol (default), latin, uniform"))
-                .type_name(values::sampling)
-                .needs("--samples");
+                .type_name(values::sampling);
             verb.add_option("--seed", options.seed, say("of the samples; default: 0"))
                 .type_name(values::count)
-                .between(0, 2147483647)
-                .needs("--samples");
+                .between(0, 2147483647);
             add_run_options(verb, options);
             verb.add_option("--threads", options.threads, say("default: as many as there are cores"))
                 .type_name(values::count)
@@ -254,7 +257,7 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                 .type_name(values::count)
                 .between(1, 1'000'000'000);
             verb.take("--svg", options.svg, say("SVG picture: lines over one quantity, maps over two"));
-            verb.take("--show", options.show).needs("--svg");
+            verb.take("--show", options.show);
         });
 }
 

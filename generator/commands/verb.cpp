@@ -10,9 +10,11 @@
 #include <cstdlib>
 
 #include "alembert/base/error.hpp"
+#include "analysis/state/given_values.hpp"
 #include "base/language/say.hpp"
 #include "commands/help.hpp"
 #include "commands/modes.hpp"
+#include "commands/option_rules.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "model/constant.hpp"
@@ -75,11 +77,6 @@ AddedOption& AddedOption::silent() {
 
 AddedOption& AddedOption::required() {
     option_->required();
-    return *this;
-}
-
-AddedOption& AddedOption::needs(const std::string& other) {
-    option_->needs(other);
     return *this;
 }
 
@@ -180,6 +177,7 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
             add(app, chosen);
             app.get_subcommands({}).back()->group(title);
         }
+    tie_options(app);
     add_modes(app);
 }
 
@@ -196,6 +194,8 @@ ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scen
             throw ModelError(say(
                 "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", typed));
         const std::string name = item.substr(0, item.find_last_not_of(' ', equals - 1) + 1);
+        for (const auto& other : result)
+            if (other.first == name) throw ModelError(say("--at {}: '{}' is given twice", typed, name));
         try {
             result.emplace_back(name, in_si(scene, name, item.substr(equals + 1)));
         } catch (const ModelError& mistake) {
@@ -219,6 +219,24 @@ Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene) {
         }
     }
     return result;
+}
+
+void add_given_values(Verb& verb, GivenValues& given) {
+    verb.take("--at", given.at, say("in place of a value of the scene: l=2, \"theta'=1\""));
+    verb.take("--input", given.inputs);
+}
+
+Scene with_given(Scene scene, const GivenValues& given) {
+    for (const std::string& typed : given.inputs) {
+        const std::size_t equals = typed.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == typed.size())
+            throw ModelError(
+                say("--input {}: expected NAME=FILE.csv or NAME=EXPRESSION, as in --input \"u=sin(t)\"", typed));
+        const std::string name = in_words_of(scene, typed.substr(0, equals)), how = typed.substr(equals + 1);
+        scene = with_input(std::move(scene), name, how.ends_with(".csv") ? how : in_words_of(scene, how));
+    }
+    const Overrides at = overrides_of(given.at, scene);
+    return with_values(std::move(scene), at);
 }
 
 double number_of(const std::string& text) {

@@ -44,6 +44,11 @@ struct SceneOptions {
     std::string by;     ///< a formalism; if empty, the program chooses
 };
 
+/// What the verbs that integrate take in place of values of the scene, as typed.
+struct GivenValues {
+    std::vector<std::string> at = {}, inputs = {};
+};
+
 void add_agree(CLI::App& app, Chosen& chosen);
 void add_audit(CLI::App& app, Chosen& chosen);
 void add_bench(CLI::App& app, Chosen& chosen);
@@ -76,6 +81,9 @@ void add_verbs(CLI::App& app, Chosen& chosen);
 /// Numbers are in the unit that the scene gives for the name.
 Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene);
 
+/// The scene with the values of --at and the functions of --input (analysis/state/given_values.hpp).
+Scene with_given(Scene scene, const GivenValues& given);
+
 /// The same as typed, as expressions in SI units.
 ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene);
 
@@ -97,8 +105,7 @@ public:
     AddedOption& as(const SharedOption& shared);
     AddedOption& silent();  ///< not shown: an earlier name
     AddedOption& required();
-    AddedOption& needs(const std::string& other);  ///< an option that must be given together with it
-    AddedOption& positive();                       ///< requires a number above zero; CLI11's own check accepts NaN
+    AddedOption& positive();  ///< requires a number above zero; CLI11's own check accepts NaN
     AddedOption& nonnegative();
     AddedOption& between(int least, int most);
 
@@ -132,6 +139,9 @@ public:
 private:
     CLI::App* app_;
 };
+
+/// --at, --input.
+void add_given_values(Verb& verb, GivenValues& given);
 
 /// SCENE, --json, --strict.
 void add_scene_options(Verb& verb, SceneOptions& options);

@@ -34,6 +34,19 @@ void declare_parameters(Building& here) {
         });
 }
 
+/// A parameter behind those of the scene, known to nobody by its name but through the input.
+GiNaC::ex given_from_outside(Building& here, const Input& input, const GiNaC::ex& value) {
+    const auto s = here.m.symbols->declare(input.name.text, SymbolInfo::Kind::parameter,
+                                           static_cast<int>(here.m.parameters.size()));
+    here.m.parameters.push_back({.symbol = s,
+                                 .value = value,
+                                 .from_outside = true,
+                                 .unit = input.unit,
+                                 .about = input.about,
+                                 .shown = input.shown});
+    return s;
+}
+
 void declare_inputs(Building& here) {
     for (std::size_t i = 0; i < here.scene.inputs.size(); ++i) {
         const Input& input = here.scene.inputs[i];
@@ -45,8 +58,12 @@ void declare_inputs(Building& here) {
         here.m.inputs.push_back(made);
     }
     for (std::size_t i = 0; i < here.scene.inputs.size(); ++i)
-        here.attempt(
-            [&] { here.m.inputs[i].value = here.m.z->name(here.translator.scalar(here.scene.inputs[i].value)); });
+        here.attempt([&] {
+            const GiNaC::ex value = here.translator.scalar(here.scene.inputs[i].value);
+            here.m.inputs[i].value = here.scene.inputs[i].from_outside
+                                         ? given_from_outside(here, here.scene.inputs[i], here.m.z->expand(value))
+                                         : here.m.z->name(value);
+        });
 }
 
 void declare_coordinates(Building& here) {

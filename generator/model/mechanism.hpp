@@ -111,7 +111,8 @@ struct Mechanism {
     struct Parameter {
         GiNaC::symbol symbol;
         GiNaC::ex value;  ///< exact: a number, a constant such as π/4 or √2, an expression in other parameters
-        bool independent = true;  ///< whether it is a number or a constant
+        bool independent = true;    ///< whether it is a number or a constant
+        bool from_outside = false;  ///< whether it is the value of an input of that name, which callers give
         std::string unit, about;
         Shown shown = {};
         /// The value of an independent one as a fraction; to fifty digits where it is none, as of π/4.

@@ -102,8 +102,9 @@ struct Node {
 /// The name and unit of a coordinate, a speed or a parameter.
 struct Quantity {
     std::string name, unit;
-    double value = 0;  ///< the value of a parameter
-    int rate_of = -1;  ///< for a speed that is the rate of a coordinate, the index of that coordinate
+    double value = 0;           ///< the value of a parameter
+    int rate_of = -1;           ///< for a speed that is the rate of a coordinate, the index of that coordinate
+    bool from_outside = false;  ///< for a parameter that is the value of an input, which callers give
 };
 
 /// The meaning of a root. The roots of a group stand in the order of their entries, matrices row by row.

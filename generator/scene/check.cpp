@@ -17,6 +17,11 @@
 namespace alembert {
 namespace {
 
+bool has_names(const Tree& tree) {
+    return (tree.kind == Tree::Kind::name && tree.text != "pi") ||
+           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return has_names(*arg); });
+}
+
 class Checker {
 public:
     Checker(const Scene& scene, std::vector<Diagnostic>& diagnostics)
@@ -141,7 +146,14 @@ private:
         const Legal input{.subject = say("an input"), .input_order = 2, .time = true, .definitions = false};
         const Legal initial{.subject = say("an initial value"), .definitions = false};
         for (const Parameter& p : scene_.parameters) quantities_.check(p.value, parameter);
-        for (const Input& i : scene_.inputs) quantities_.check(i.value, input);
+        for (const Input& i : scene_.inputs) {
+            quantities_.check(i.value, input);
+            if (i.from_outside && i.value && has_names(*i.value.tree))
+                complain(i.value.place(),
+                         say("the value of '{}', which is given from outside, is what it has where "
+                             "nobody gives it: expected a number",
+                             i.name.text));
+        }
         for (const Coordinate& c : scene_.coordinates) {
             quantities_.check(c.initial, initial);
             quantities_.check(c.rate, initial);

@@ -39,7 +39,7 @@ inline constexpr TableKeys table_keys[] = {
     {"parameters", TableKeys::Shape::one},
     {"parameters.*", TableKeys::Shape::inner, {"value", "unit", "about"}},
     {"inputs", TableKeys::Shape::one},
-    {"inputs.*", TableKeys::Shape::inner, {"value", "unit", "about"}},
+    {"inputs.*", TableKeys::Shape::inner, {"value", "unit", "about", "given"}},
     {"coordinates", TableKeys::Shape::one},
     {"coordinates.*", TableKeys::Shape::inner, {"initial", "rate", "guess", "rate_guess", "unit", "about"}},
     {"speeds", TableKeys::Shape::one},

@@ -50,10 +50,12 @@ struct Parameter {
 
 struct Input {
     Name name;
-    Expression value;  ///< in t, parameters (and other inputs)
+    Expression value;  ///< in t, parameters (and other inputs); a number if it comes from outside
     std::string unit, about;
     Place unit_place = {};
     Shown shown = {};
+    /// Whether who runs the equations gives it, and holds it constant between calls; else it has `value`.
+    bool from_outside = false;
 };
 
 struct Coordinate {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "base/language/say.hpp"
@@ -35,6 +36,14 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what, 
         keys.complain("value", say("{} needs '{}'", what, "value"));
     item.unit = keys.unit("unit", item.unit_place);
     item.about = keys.text("about");
+    if constexpr (std::is_same_v<Item, Input>)
+        if (keys.has("given")) {
+            item.from_outside = true;
+            if (keys.text("given") != "outside")
+                keys.complain("given", say("{} is given \"outside\", by whoever runs the equations, or has an "
+                                           "expression in t alone; there is no other way",
+                                           what));
+        }
     return item;
 }
 

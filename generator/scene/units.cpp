@@ -153,6 +153,7 @@ UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
     if (is_rate) return {};
     if (const auto found = in(scene.speeds)) return *found;
     if (const auto found = in(scene.parameters)) return *found;
+    if (const auto found = in(scene.inputs)) return *found;
     return {.unit = name == "t" ? "s" : ""};
 }
 

@@ -177,7 +177,7 @@ public:
                               .budget = wishes_.budget};
         find_reference(program, workbench, options, first);
         workbench.set_reference(result_.reference.final);
-        measure(workbench, options, c);
+        measure(workbench, options, c, program);
         if (wishes_.method.empty() || wishes_.method == automatic_method)
             measure_automatic(workbench, options, program);
         if (options_.peers && in_memory(wishes_))
@@ -236,7 +236,7 @@ private:
                                start_.t, start_.q);
     }
 
-    void measure(Workbench& workbench, const Options& options, const Compilation& c) {
+    void measure(Workbench& workbench, const Options& options, const Compilation& c, const Program& program) {
         // The cost of one right-hand side, and the number of steps of a loose run, from which fixed steps are
         // chosen.
         Options loose = options;
@@ -246,6 +246,7 @@ private:
         const long guess = std::max(16L, trial.steps);
         const bool separable = !inseparable(result_);
         const std::vector<Method> methods = all_methods();
+        refuse_without_use(program, c);
         for (std::size_t k = 0; k < methods.size(); ++k) {
             if (needs_separable(methods[k]) && !separable) continue;
             if (needs_series(methods[k]) && !c.series) continue;
@@ -259,6 +260,20 @@ private:
             for (Measured& run : ladder(workbench, these, options_.most_seconds, each, guess, at))
                 result_.runs.push_back(std::move(run));
         }
+    }
+
+    /// Throws ModelError for a method that was named and cannot be measured here, and for a longest step that it
+    /// does not take.
+    void refuse_without_use(const Program& program, const Compilation& c) const {
+        const std::optional<Method> asked = method_named(wishes_.method);
+        if (!asked) return;
+        if (needs_separable(*asked)) need_separable(result_, wishes_.method);
+        if (needs_canonical(*asked)) need_canonical(result_, wishes_.method);
+        if (needs_series(*asked) && !c.series)
+            if (const auto why = obstacle_to_recurrences(program))
+                throw ModelError(
+                    say("method '{}' needs a motion that is a power series, but {}", wishes_.method, *why));
+        if (has_fixed_step(*asked)) options_of(wishes_, {.method = *asked}, start_);
     }
 
     /// What `auto` chooses, at each tolerance.

@@ -262,6 +262,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
     e.functions = named_functions(program, e, options);
     if (!options.name.empty()) program.name = options.name;
+    if (options.standalone || options.casadi)  // these have parameters alone, and nobody gives inputs
+        for (Quantity& p : program.parameters) p.from_outside = false;
     EmitOptions text{.batch = options.batch,
                      .language = options.language,
                      .functions = e.functions,

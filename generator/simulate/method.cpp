@@ -260,6 +260,11 @@ Options options_of(const RunOptions& wishes, const MethodChoice& choice, const S
                 "their steps (dop853, radau …) "
                 "take a longest one",
                 *wishes.max_step, name(choice.method)));
+    if (fixed && wishes.tolerance)
+        throw ModelError(say(
+            "a tolerance of {:g} was asked for, but {} has a fixed step, and no error that chooses it; leave the "
+            "tolerance out, or take a method that chooses its steps (dop853, radau …)",
+            *wishes.tolerance, name(choice.method)));
     return {.method = choice.method,
             .start = start.t,
             .duration = wishes.duration.value_or(start.duration),

@@ -67,6 +67,12 @@ def values_at(at):
     return [f"{name}={text(value)}" for name, value in (at or {}).items()]
 
 
+def inputs_of(given):
+    """`{"u": "sin(t)"}`, or a CSV file, as the NAME=… of the command line."""
+    return [f"{name}={how if isinstance(how, str) else repr(float(how)) if isinstance(how, (int, float)) else _os.fspath(how)}"
+            for name, how in (given or {}).items()]
+
+
 def axis(over):
     """(name, from, to) or (name, from, to, count) as the program takes it."""
     try:

@@ -9,7 +9,7 @@ from . import _alembert
 from ._motion import Run, Swept
 from ._results import (
     Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Linearized, Marked, Result, Sources, Stability, ask, axis,
-    listed, numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
+    inputs_of, listed, numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
 from ._system import Robot, System
 from ._toml import to_toml
 from .expressions import from_sympy
@@ -164,32 +164,35 @@ class Scene:
 
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
                  budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare="", code="",
-                 sensitivity=(), sensitivity_of=(), sensitivity_rows=False, regularize=False, tuning=True):
+                 sensitivity=(), sensitivity_of=(), sensitivity_rows=False, regularize=False, tuning=True, at=None,
+                 input=None):
         """Integrates the motion. What is not given is the scene's. With `poincare="theta1 = 0"` the result has the
         crossings of that section. `code` is "memory" or "compiled" where the choice is not left to the program. With
         `sensitivity=["theta1", "l1"]` the result has the derivatives of the state at the end by these:
         `run.sensitivity["values"][i][k]` is that of component `["of"][i]` by `["by"][k]`; `sensitivity_of` names the
         components and outputs that are wanted, and where these are few, the adjoint equations give them. With
         `regularize=True` steps are short where the potential is deep. With `tuning=False` the method is chosen by counts
-        alone, as on every other machine."""
+        alone, as on every other machine. `at={"l": 2, "theta": 0.3}` replaces values of the scene, and
+        `input={"u": "sin(t)"}`, or the name of a CSV file, gives an input that comes from outside."""
         given = numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
         return Run((self.text, self.name, by, method, list(given.values()), int(budget), estimate, reactions, fast_math,
-                    poincare, code, list(sensitivity), list(sensitivity_of), sensitivity_rows, regularize, tuning))
+                    poincare, code, list(sensitivity), list(sensitivity_of), sensitivity_rows, regularize, tuning,
+                    values_at(at), inputs_of(input)))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
               budget=10_000_000, by="", threads=0, code="", fast_math=False, along=(), reduce=(), samples=None,
-              sampling="sobol", seed=0, path=None, resume=False, tuning=True):
+              sampling="sobol", seed=0, path=None, resume=False, tuning=True, at=None, input=None):
         """The ends of many motions: `values={"l1": numpy.linspace(1, 2, 100), "theta1": [0.1, 0.2]}` gives a Swept of
         shape (100, 2); with grid=False the lists have one length and are taken side by side. With `samples=1000` the
         values are ranges, {"l1": (1, 2)}, in which as many points lie; `sampling` and `seed` are the command's.
-        `along=["min", "max"]` adds columns of whole motions. With `reduce=["min", "mean", 0.95]` only `statistics` are
+        `at` and `input` are those of `simulate`. `along=["min", "max"]` adds columns of whole motions. With `reduce=["min", "mean", 0.95]` only `statistics` are
         kept. With `path` the table is written to this file (CSV, NAME.npz, NAME.h5) and not kept in memory; what is
         done is in PATH.unfinished meanwhile, and with resume=True the same call goes on after an interruption."""
         place = None if path is None else _os.fspath(path)
         if resume and place is None:
             raise ValueError("resume=True needs path=…: what is done is kept beside this file")
         given, shape = points_of(values, grid) if samples is None else samples_of(values, samples, sampling, seed)
-        given.update(method=method, by=by, threads=threads, code=code, budget=int(budget), fast_math=fast_math, tuning=tuning,
+        given.update(at=values_at(at), input=inputs_of(input), method=method, by=by, threads=threads, code=code, budget=int(budget), fast_math=fast_math, tuning=tuning,
                      along=listed(along), reduce=listed(reduce), path=place, resume=resume,
                      **numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step))
         try:
@@ -204,10 +207,11 @@ class Scene:
         return Swept(_json.loads(json), text, columns, table, shape)
 
     def bench(self, duration=None, *, method="", max_step=None, budget=10_000_000, code="", run_seconds=2.0,
-              reference_seconds=30.0, peers=False, by="", tuning=True):
+              reference_seconds=30.0, peers=False, by="", tuning=True, at=None, input=None):
         """Speed against error of every method; `.figure` is the diagram. `run_seconds` is the processor time of the
         slowest runs that are of interest, `reference_seconds` that of each of the reference's methods."""
-        return self._ask("bench", Drawn, method=method, code=code, peers=peers, by=by, budget=int(budget), tuning=tuning,
+        return self._ask("bench", Drawn, at=values_at(at), input=inputs_of(input), method=method, code=code, peers=peers,
+                         by=by, budget=int(budget), tuning=tuning,
                          **numbers(duration=duration, max_step=max_step, run_seconds=run_seconds,
                                    reference_seconds=reference_seconds))
 
@@ -245,11 +249,12 @@ class Scene:
         write(path, unit._files["fmu"])
         return unit
 
-    def report(self, path, *, duration=None, budget=3_000_000, motion=True, poincare="", bench=False, by=""):
+    def report(self, path, *, duration=None, budget=3_000_000, motion=True, poincare="", bench=False, by="", at=None,
+               input=None):
         """Writes the page of the scene, with the figure that moves, to this HTML file; with `bench`, the speed and error
         of every method too."""
         _alembert.need_form(_os.fspath(path), "page")
-        page = self._ask("report", motion=motion, poincare=poincare, bench=bench, by=by, budget=int(budget),
+        page = self._ask("report", at=values_at(at), input=inputs_of(input), motion=motion, poincare=poincare, bench=bench, by=by, budget=int(budget),
                          **numbers(duration=duration))
         write(path, page._files["html"])
 

@@ -16,13 +16,16 @@ class System:
         scipy.integrate.solve_ivp(system.rhs, (0, 10), y0, jac=system.jacobian, method="Radau")
         scipy.integrate.solve_ivp(system.rhs_of_columns, (0, 10), y0, method="Radau", vectorized=True)
 
+    Where the scene has inputs that are given from outside, `inputs` has their names, and every function takes their values as
+    a last argument, one for each, which hold for this call: `system.rhs(t, y, [0.5])`. Without it they have the scene's.
+
     A pickled system carries its source and its parameters, and is compiled, or found in the cache, where it is read.
     """
 
     def __init__(self, scene, by="", jacobian=True, functions=(), frames=()):
         self._system, said, names = _alembert.system(scene.text, scene.name, by, jacobian, list(functions), list(frames))
         warn(said)
-        self.coordinates, self.speeds, self._parameters = names
+        self.coordinates, self.speeds, self._parameters, self.inputs = names
         self._bind()
 
     def _bind(self):
@@ -45,6 +48,9 @@ class System:
     @property
     def parameters(self):
         """Names, as the scene writes them, and values."""
+        return {name: value for name, value in self._all().items() if name not in self.inputs}
+
+    def _all(self):
         return dict(zip(self._parameters, self._system.parameter_values))
 
     def set(self, values=None, /, **more):
@@ -58,7 +64,7 @@ class System:
             if known is None:
                 raise KeyError(f"no parameter '{name}'; there are {', '.join(new)}")
             new[known] = float(value)
-        self._system.set_parameters(list(new.values()))
+        self._system.set_parameters(list({**self._all(), **new}.values()))
 
     @property
     def source(self):
@@ -71,8 +77,8 @@ class System:
 
         return numpy.ascontiguousarray(self.rhs(t, numpy.asarray(y, dtype=float).T).T)
 
-    def __call__(self, t, y):
-        return self.rhs(t, y)
+    def __call__(self, t, y, inputs=None):
+        return self.rhs(t, y, inputs)
 
     def __repr__(self):
         speeds = ", ".join(self.speeds) if self.speeds else "their rates"

@@ -218,7 +218,7 @@ class Examination:
         ways += [("sweep", self._sweep)]
         if self.options.compile(self.rng):
             ways += [("--code compiled", lambda: self.door.simulate("--code", "compiled"))]
-        if not self.scene.get("unilateral") and not self.scene.get("friction") and self.options.compile(self.rng):
+        if not self.scene.get("friction") and self.options.compile(self.rng):
             version, steps = self.rng.choice([2, 3]), self.rng.choice([1, 7, 40])
             ways += [(f"fmu {version}", lambda: self.door.unit(version, self.q, duration, tolerance, steps, self.z))]
             if not pieces and "speeds" not in self.scene:

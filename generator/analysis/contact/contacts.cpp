@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
@@ -36,6 +37,23 @@ Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& clo
         const bool is_closed = std::find(closed.begin(), closed.end(), static_cast<int>(k)) != closed.end();
         mechanism.events.push_back({gap.name, is_closed ? GiNaC::ex(gap.multiplier) : *gap.position});
         mechanism.event_actions.push_back({.stop = true});
+    }
+    return mechanism;
+}
+
+Mechanism with_contact_forces(Mechanism mechanism) {
+    for (const Mechanism::Unilateral& contact : std::exchange(mechanism.unilateral, {})) {
+        const Mechanism::Constraint& gap = contact.gap;
+        ex velocity = 0;
+        for (int i = 0; i < mechanism.size(); ++i) velocity += gap.row[i] * mechanism.qdot[i];
+        const GiNaC::symbol force = mechanism.symbols->declare(
+            gap.multiplier.get_name(), SymbolInfo::Kind::parameter, static_cast<int>(mechanism.parameters.size()));
+        mechanism.parameters.push_back({.symbol = force, .value = 0, .unit = {}, .about = {}});
+        mechanism.loads.push_back({.origin = {.kind = Origin::Kind::force, .name = gap.name},
+                                   .pairs = {{.velocity = mechanism.z->name(velocity), .force = force}}});
+        for (Mechanism::Definition& output : mechanism.outputs)
+            if (mechanism.z->depends(output.value, {gap.multiplier}))
+                output.value = mechanism.z->name(mechanism.z->expand(output.value).subs(gap.multiplier == force));
     }
     return mechanism;
 }
@@ -93,6 +111,30 @@ Program view_of(const Mechanism& mechanism) {
     add_slip_rows(program, closed);
     return program.canonical();
 }
+
+}  // namespace
+
+FunctionProgram contact_function(const Mechanism& mechanism) {
+    Program program = view_of(mechanism);
+    const std::vector<int> gap = program.nodes_of(Group::position), rate = program.nodes_of(Group::velocity),
+                           delta = program.nodes_of(Group::gamma), row = program.nodes_of(Group::row);
+    const std::size_t first = mechanism.constraints.size(), n = mechanism.q.size();
+    std::vector<int> values;
+    for (std::size_t k = 0; k < mechanism.unilateral.size(); ++k) {
+        const std::size_t at = first + k;
+        values.insert(values.end(), {gap[at], rate[at], delta[at],
+                                     lower_expression(program, mechanism, mechanism.unilateral[k].restitution)});
+        const auto begin = row.begin() + static_cast<std::ptrdiff_t>(at * n);
+        values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(n));
+    }
+    return {.name = "contacts_at",
+            .about = "Of each contact its gap, gap', delta of gap'' = G q'' - delta, restitution, and G.",
+            .rows = static_cast<int>(mechanism.unilateral.size()),
+            .columns = static_cast<int>(n) + 4,
+            .program = with_values_only(std::move(program), values)};
+}
+
+namespace {
 
 constexpr double rate_at_rest = 1e-13;     // of rounding, as in lib/alembert/hybrid/contact.cpp
 constexpr double negligible_slip = 1e-12;  // of a sliding velocity, relative to the sizes of its terms

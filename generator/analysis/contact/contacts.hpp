@@ -17,6 +17,7 @@
 #include "alembert/hybrid/contact.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
+#include "program/named_function.hpp"
 
 namespace alembert {
 
@@ -28,6 +29,13 @@ Mechanism with_all_closed(const Mechanism& mechanism);
 
 /// Adds an event for each contact, after the scene's own: its multiplier if it is closed, its gap if it is open.
 Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& closed);
+
+/// The mechanism in which no contact closes by itself: each is a force along its gap whose size is a parameter,
+/// with the name of its multiplier, after all others. Its value is 0.
+Mechanism with_contact_forces(Mechanism mechanism);
+
+/// The function contacts_at, with a row for each contact: gap, gap', δ of gap'' = G q'' − δ, restitution, and G.
+FunctionProgram contact_function(const Mechanism& mechanism);
 
 /// Evaluates mass matrix, forcing, constraint rows and gaps by interpretation. It is used at the end of a phase,
 /// not in each step.

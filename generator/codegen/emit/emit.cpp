@@ -150,12 +150,22 @@ public:
     }
 
 private:
+    /// The task of a function that takes inputs from outside, behind the parameters.
+    FunctionTask with_inputs(FunctionTask task) const {
+        const auto par = std::find_if(task.arguments.begin(), task.arguments.end(),
+                                      [](const FunctionArgument& a) { return a.name == "par"; });
+        if (words_.inputs_from_outside() > 0 && par != task.arguments.end())
+            task.arguments.insert(par + 1, {"const Real*", "inputs"});
+        return task;
+    }
+
     /// A function without statements is not written; `has_name` tells the tables whether a function exists.
     void add(const std::vector<EmittedFunction>& list, const std::string& name) {
         for (const EmittedFunction& function : list) functions_ << data_of(function);
         file_.set("has_" + name, !list.empty());
     }
-    void add(const FunctionTask& task) {
+    void add(const FunctionTask& plain) {
+        const FunctionTask task = with_inputs(plain);
         const std::vector<EmittedFunction> list = written(p_, words_, task, options_);
         add(list, task.name);
         if (!list.empty()) tasks_.push_back(task);
@@ -232,7 +242,7 @@ private:
     void add_named_functions() {
         mustache::data list{mustache::data::type::list};
         for (const NamedFunction& function : options_.functions) {
-            const FunctionTask task = named_function(p_, function);
+            const FunctionTask task = with_inputs(named_function(p_, function));
             tasks_.push_back(task);
             for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << data_of(part);
             mustache::data entry;
@@ -256,11 +266,35 @@ private:
         list("speed_names", quoted(labels_of(words_.u())));
         list("coordinate_names", quoted(labels_of(words_.q())));
         list("parameter_names", quoted(labels_of(words_.par())));
+        describe_inputs();
         list("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
         list("event_names", quoted(root_names(p_, {Group::event})));
         std::string values;
         for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
         list("parameter_values", values);
+    }
+
+    /// The array of inputs from outside, whose values in the scene stand among the parameters.
+    void describe_inputs() {
+        const int count = words_.inputs_from_outside(), first = words_.first_input();
+        std::vector<std::string> own, inputs;
+        std::string values;
+        for (std::size_t k = 0; k < words_.par().size(); ++k) {
+            (words_.is_from_outside(k) ? inputs : own).push_back(words_.par()[k]);
+            if (words_.is_from_outside(k)) values += shortest(p_.parameters[k].value) + ", ";
+        }
+        file_.set("has_inputs", count > 0);
+        number("inputs", inputs.size());
+        number("first_input", static_cast<std::size_t>(first));
+        number("own_p", own.size());
+        list("own_parameter_names", quoted(labels_of(own)));
+        list("input_names", quoted(labels_of(inputs)));
+        list("input_values", values);
+        file_.set("par", count > 0 ? fmt::format("par, par + {}", first) : "par");
+        file_.set("par_in_packs", count > 0 ? fmt::format("packs(par + at), packs(par + {} * systems + at)", first)
+                                            : "packs(par + at)");
+        file_.set("par_of_lane", count > 0 ? fmt::format("p, p + {}", first) : "p");
+        file_.set("given", count > 0 ? " const ALEMBERT_REAL *inputs," : "");
     }
 
     /// What the template of JavaScript needs beside the others.

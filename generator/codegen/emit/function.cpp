@@ -70,12 +70,11 @@ std::string place_of(const FunctionResult& result) {
 }
 
 std::set<std::string> used_in(const std::vector<Passage>& passages, const std::vector<ArrayInput>& items) {
-    constexpr const char* arrays[] = {"state", "rate", "par", "direction"};
     std::set<std::string> used;
     for (const Passage& passage : passages)
         for (const CodeStatement& statement : passage.statements)
             used.insert(statement.uses.begin(), statement.uses.end());
-    for (const ArrayInput& item : items) used.insert(arrays[static_cast<int>(item.array)]);
+    for (const ArrayInput& item : items) used.insert(item.name_of_array());
     return used;
 }
 

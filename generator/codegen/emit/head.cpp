@@ -35,6 +35,7 @@ public:
           scene_(ascii_identifier(p.name)),
           n_(words.q().size()),
           s_(words.u().size()),
+          inputs_(static_cast<std::size_t>(words.inputs_from_outside())),
           parameters_(words.par().size()),
           length_(parameters_ + words.constants().size()) {}
 
@@ -138,11 +139,13 @@ private:
         }
         entry(fmt::format("state[{}]", n_ + s_), state);
         entry(fmt::format("rate[{}]", n_ + s_), {"d state / dt"});
-        Items par;
+        Items par, inputs;
         for (std::size_t k = 0; k < parameters_; ++k)
-            par.push_back(
-                with_unit(fmt::format("{} = {}", label_of(words_.par()[k]), shortest(p_.parameters[k].value)),
-                          p_.parameters[k].unit));
+            (words_.is_from_outside(k) ? inputs : par)
+                .push_back(
+                    with_unit(fmt::format("{} = {}", label_of(words_.par()[k]), shortest(p_.parameters[k].value)),
+                              p_.parameters[k].unit));
+        if (inputs_ > 0) par.push_back("then " + counted(static_cast<long>(inputs_), "unread number"));
         if (length_ > parameters_) {
             const std::string made = fmt::format("{}{} that prepare computes from them; call it after each change",
                                                  par.empty() ? "" : "then ",
@@ -151,6 +154,9 @@ private:
         }
         if (par.empty()) par.emplace_back("nothing is read");
         entry(fmt::format("par[{}]", length_), par);
+        if (inputs_ == 0) return;
+        inputs.back() += "; given from outside, and held during a call";
+        entry(fmt::format("inputs[{}]", inputs_), inputs);
     }
 
     /// The arrays of the other functions.
@@ -222,6 +228,14 @@ private:
                                    : " Compile it with c++ -std=c++20 -O2 example.cpp");
     }
 
+    /// "{0.5, 0}": the inputs from outside as the scene has them.
+    std::string input_values() const {
+        Items values;
+        for (std::size_t k = 0; k < parameters_; ++k)
+            if (words_.is_from_outside(k)) values.push_back(shortest(p_.parameters[k].value));
+        return fmt::format("{}", fmt::join(values, ", "));
+    }
+
     /// The line `before` + numbers + `after`, broken.
     void numbers(const std::string& before, const std::string& after = "};") {
         Items items;
@@ -239,6 +253,8 @@ private:
         lines_.push_back(line);
     }
 
+    const char* given() const { return inputs_ > 0 ? "inputs, " : ""; }
+
     void example_of_header() {
         const std::string space = namespace_of(p_);
         lines_.insert(
@@ -247,8 +263,9 @@ private:
              options_.state.empty() ? fmt::format("      const {}::State state = {{}};", space)
                                     : fmt::format("      const {0}::State state = {0}::initial_state;", space),
              fmt::format("      const {0}::Parameters par = {0}::defaults();", space),
-             fmt::format("      const {0}::State rate = {0}::rhs({1}, state, par);", space,
-                         options_.state.empty() ? "0" : space + "::initial_time"),
+             fmt::format("      const {0}::State rate = {0}::rhs({1}, state, par{2});", space,
+                         options_.state.empty() ? "0" : space + "::initial_time",
+                         inputs_ > 0 ? ", " + space + "::Inputs()" : ""),
              fmt::format("      for (int k = 0; k < {0}::state_size; ++k) std::printf(\"%.17g\\n\", "
                          "{0}::numbers(rate)[k]);",
                          space),
@@ -266,20 +283,26 @@ private:
             lines_.push_back(fmt::format("      for (int k = 0; k < {}; ++k) par[k] = {}::parameter_values[k];",
                                          parameters_, space));
         if (length_ > parameters_) lines_.push_back(fmt::format("      {}::prepare(par);", space));
-        lines_.insert(lines_.end(),
-                      {fmt::format("      {}::rhs({}, state, par, rate);", space, real_literal(options_.t)),
-                       "      for (const double value : rate) std::printf(\"%.17g\\n\", value);", "  }"});
+        if (inputs_ > 0)
+            lines_.push_back(fmt::format("      const double inputs[{}] = {{{}}};", inputs_, input_values()));
+        lines_.insert(
+            lines_.end(),
+            {fmt::format("      {}::rhs({}, state, par, {}rate);", space, real_literal(options_.t), given()),
+             "      for (const double value : rate) std::printf(\"%.17g\\n\", value);", "  }"});
     }
 
     void example_in_c() {
         lines_.insert(lines_.end(), {"  #include <stdio.h>", fmt::format("  #include \"{}.h\"", scene_), "",
                                      "  int main(void) {"});
         numbers(fmt::format("      const ALEMBERT_REAL state[{}_state] = {{", scene_));
+        if (inputs_ > 0)
+            lines_.push_back(
+                fmt::format("      const ALEMBERT_REAL inputs[{}_inputs] = {{{}}};", scene_, input_values()));
         lines_.insert(
             lines_.end(),
             {fmt::format("      ALEMBERT_REAL par[{0}_par + 1], rate[{0}_state];", scene_),
              fmt::format("      {}_defaults(par);", scene_),
-             fmt::format("      {}_rhs({}, state, par, rate);", scene_, shortest(options_.t)),
+             fmt::format("      {}_rhs({}, state, par, {}rate);", scene_, shortest(options_.t), given()),
              fmt::format("      for (int k = 0; k < {}_state; ++k) printf(\"%.17g\\n\", (double)rate[k]);",
                          scene_),
              "      return 0;", "  }"});
@@ -290,7 +313,8 @@ private:
         numbers("  const state = [", "];");
         lines_.insert(lines_.end(),
                       {fmt::format("  const par = scene.defaults(), rate = new Float64Array({});", n_ + s_),
-                       fmt::format("  scene.rhs({}, state, par, rate);", shortest(options_.t)),
+                       fmt::format("  scene.rhs({}, state, par, {}rate);", shortest(options_.t),
+                                   inputs_ > 0 ? "scene.input_values, " : ""),
                        "  for (const value of rate) console.log(value);"});
     }
 
@@ -305,7 +329,7 @@ private:
     const EmitOptions& options_;
     bool is_header_;
     std::string scene_;
-    std::size_t n_, s_, parameters_, length_;
+    std::size_t n_, s_, inputs_, parameters_, length_;
     Items lines_;
 };
 

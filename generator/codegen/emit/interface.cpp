@@ -21,7 +21,8 @@ namespace mustache = kainjow::mustache;
 
 /// The table that has the function, from which it is called: so there is one instance of each, which is inline
 /// there.
-std::string call_of(const std::string& name, std::size_t& named) {
+std::string call_of(const std::string& name, bool has_inputs, std::size_t& named) {
+    if (has_inputs && name != "prepare") return name;  // those of the tables take inputs among the parameters
     for (const char* const of_table : {"prepare", "rhs", "mass_forcing", "energy", "outputs_at", "events_at",
                                        "constraints_at", "multipliers_at"})
         if (name == of_table) return "table." + name;
@@ -31,7 +32,7 @@ std::string call_of(const std::string& name, std::size_t& named) {
     return fmt::format("named_functions[{}].call", named++);
 }
 
-mustache::data export_of(const FunctionTask& task, std::size_t& named) {
+mustache::data export_of(const FunctionTask& task, bool has_inputs, std::size_t& named) {
     std::string arguments, names;
     for (const FunctionArgument& a : task.arguments) {
         arguments += (arguments.empty() ? "" : ", ") + typed(CodeLanguage::c, a, "double");
@@ -39,7 +40,7 @@ mustache::data export_of(const FunctionTask& task, std::size_t& named) {
     }
     mustache::data result;
     result.set("name", task.name);
-    result.set("call", call_of(task.name, named));
+    result.set("call", call_of(task.name, has_inputs, named));
     result.set("about", comment_text(task.about));
     result.set("arguments", arguments);
     result.set("names", names);
@@ -81,7 +82,7 @@ public:
                                          "output_names",     "event_names",      "table"};
         std::size_t named = 0;
         for (const FunctionTask& task : tasks) {
-            exports << export_of(task, named);
+            exports << export_of(task, words_.inputs_from_outside() > 0, named);
             visible.push_back(task.name);
         }
         if (options_.batch)
@@ -168,13 +169,16 @@ private:
     static std::string in_brackets(const std::string& unit) { return unit.empty() ? "" : "[" + unit + "]"; }
 
     void parameters() {
-        std::vector<Member> members;
+        std::vector<Member> members, inputs;
         for (std::size_t k = 0; k < words_.par().size(); ++k)
-            members.push_back({words_.par()[k], p_.parameters[k].value, about(p_.parameters[k], true)});
+            (words_.is_from_outside(k) ? inputs : members)
+                .push_back({words_.par()[k], p_.parameters[k].value, about(p_.parameters[k], true)});
         file_.set("parameter_members", members_of(members));
-        file_.set("has_no_par", members.empty() && words_.constants().empty());
+        file_.set("input_members", members_of(inputs));
+        file_.set("has_no_par", members.empty() && inputs.empty() && words_.constants().empty());
         Names names = words_.names();
         file_.set("constants_member", names.fresh("prepared"));
+        file_.set("inputs_member", names.fresh("unread"));
     }
 
     void values(const char* key, std::initializer_list<Group> groups) {

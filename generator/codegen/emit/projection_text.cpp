@@ -25,7 +25,7 @@ std::string all_constraints(const Program& p) {
     return all == p.nodes_of(Group::velocity).size() ? "constraints" : std::to_string(all);
 }
 
-std::string projection_text(const Program& p, CodeLanguage language) {
+std::string projection_text(const Program& p, CodeLanguage language, const ProjectionParts& parts) {
     const bool is_c = language == CodeLanguage::c, has_project = !project(p).results.empty();
     kainjow::mustache::data file;
     file.set("call", is_c ? ascii_identifier(p.name) + "_" : "");
@@ -33,9 +33,15 @@ std::string projection_text(const Program& p, CodeLanguage language) {
     file.set("own_speeds", !p.speeds.empty());
     file.set("all_constraints", all_constraints(p));
     file.set("has_project", has_project);
-    file.set("has_energy", !energy(p).results.empty());
+    file.set("has_energy", parts.watches_energy && !energy(p).results.empty());
+    file.set("has_constraints_at", !constraints_at(p).results.empty());
     file.set("has_near", has_project && !is_eliminated(p) && !gamma_at(p).results.empty() &&
                              !mass_forcing(p).results.empty() && !constraints_at(p).results.empty());
+    file.set("has_contacts", parts.contacts > 0);
+    file.set("has_responses", parts.responses > 0);
+    file.set("responses", std::to_string(parts.responses));
+    file.set("rates", parts.contacts > 0 ? "free_rates" : "held_rates");
+    file.set("contacts", kainjow::mustache::mustache{std::string(template_contacts)}.render(file));
     return kainjow::mustache::mustache{std::string(template_projection)}.render(file);
 }
 

@@ -3,15 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "program/motion_system.hpp"
 
 namespace alembert {
 
+const char* ArrayInput::name_of_array() const {
+    constexpr const char* arrays[] = {"state", "rate", "par", "direction", "inputs"};
+    return arrays[static_cast<int>(array)];
+}
+
 std::string ArrayInput::source() const {
-    constexpr const char* arrays[] = {"state", "rate", "par", "direction"};
-    return fmt::format("{}[{}]", arrays[static_cast<int>(array)], place);
+    return fmt::format("{}[{}]", name_of_array(), place);
 }
 
 Vocabulary::Vocabulary(const Program& program, CodeLanguage language)
@@ -19,6 +25,8 @@ Vocabulary::Vocabulary(const Program& program, CodeLanguage language)
       n_(static_cast<int>(program.coordinates.size())),
       s_(static_cast<int>(speeds_of(program))),
       names_(language) {
+    if (std::any_of(p_.parameters.begin(), p_.parameters.end(), [](const Quantity& p) { return p.from_outside; }))
+        names_.fresh("inputs");
     for (const Quantity& q : p_.coordinates) {
         q_.push_back(names_.fresh(q.name));
         if (!p_.speeds.empty()) continue;
@@ -30,11 +38,26 @@ Vocabulary::Vocabulary(const Program& program, CodeLanguage language)
         u_.push_back(names_.fresh(q.empty() ? u.name : q + "_dot"));
         a_.push_back(names_.fresh(q.empty() ? u_.back() + "_dot" : q + "_ddot"));
     }
-    for (const Quantity& par : p_.parameters) par_.push_back(names_.fresh(par.name));
+    for (const Quantity& par : p_.parameters) {
+        if (par.from_outside && inputs_++ == 0) first_input_ = static_cast<int>(par_.size());
+        par_.push_back(names_.fresh(par.name));
+    }
     for (int id = 0; id < p_.size(); ++id)
         if (const Variable& x = p_[id].variable; p_[id].op == Op::variable && x.kind == Variable::Kind::unknown)
             unknown_[x.index] = names_.fresh(fmt::format("direction_{}", x.index));
     find_constants();
+}
+
+std::vector<char> Vocabulary::by_inputs() const {
+    std::vector<char> result(static_cast<std::size_t>(p_.size()), 0);
+    for (int id = 0; id < p_.size() && inputs_ > 0; ++id) {
+        const Node& node = p_[id];
+        bool found = node.op == Op::variable && node.variable.kind == Variable::Kind::parameter &&
+                     is_from_outside(static_cast<std::size_t>(node.variable.index));
+        for (const int arg : node.args) found = found || result[static_cast<std::size_t>(arg)] != 0;
+        result[static_cast<std::size_t>(id)] = found ? 1 : 0;
+    }
+    return result;
 }
 
 /// Finds the nodes that depend on parameters only and are used by nodes that depend on more.
@@ -42,15 +65,19 @@ void Vocabulary::find_constants() {
     std::vector<int> wanted;
     for (const Root& root : p_.roots) wanted.push_back(root.node);
     std::set<int> found;
+    const std::vector<char> changing = by_inputs();
+    const auto is_constant = [&](int id) {
+        return p_[id].is_constant() && changing[static_cast<std::size_t>(id)] == 0;
+    };
     const auto consider = [&](int id) {
         const Node& node = p_[id];
-        if (!node.is_constant() || node.args.empty()) return;
+        if (!is_constant(id) || node.args.empty()) return;
         const bool negation = node.is_scaled() && cln::equal(node.coefficients[0], -1);
         const int kept = negation ? node.args[0] : id;
         if (!p_[kept].args.empty()) found.insert(kept);  // −p is computed from p, which is in `par` already
     };
     for (const int id : p_.needed(wanted))
-        if (!p_[id].is_constant())
+        if (!is_constant(id))
             for (const int arg : p_[id].args) consider(arg);
     for (const Root& root : p_.roots) {
         consider(root.node);
@@ -137,7 +164,11 @@ std::vector<ArrayInput> Vocabulary::inputs(const NodeMap<int>& uses, bool rates_
     add(u_, u, ArrayInput::Array::state, n_);
     add(a_, a, ArrayInput::Array::rate, n_);
     for (const int place : direction) items.push_back({unknown_.at(place), ArrayInput::Array::direction, place});
+    std::vector<char> given(par_.size(), 0);
+    for (std::size_t i = 0; i < par.size(); ++i)
+        if (is_from_outside(i)) std::swap(par[i], given[i]);
     add(par_, par, ArrayInput::Array::par, 0);
+    add(par_, given, ArrayInput::Array::inputs, -first_input_);
     for (std::size_t k = 0; k < constants_.size(); ++k)
         if (uses.contains(constants_[k]))
             items.push_back(

@@ -19,10 +19,11 @@ namespace alembert {
 
 /// A name that a function takes from one of its arrays.
 struct ArrayInput {
-    enum class Array { state, rate, par, direction };  ///< each array is declared separately
+    enum class Array { state, rate, par, direction, inputs };  ///< each array is declared separately
     std::string name;
     Array array;
     int place;
+    const char* name_of_array() const;
     std::string source() const;  ///< "state[0]"
 };
 
@@ -42,6 +43,10 @@ public:
     const std::vector<std::string>& u() const { return u_; }  ///< speeds
     const std::vector<std::string>& a() const { return a_; }  ///< their rates
     const std::vector<std::string>& par() const { return par_; }
+    /// The parameters that callers give as the array `inputs`: where they begin in `par`, and how many they are.
+    int first_input() const { return first_input_; }
+    int inputs_from_outside() const { return inputs_; }
+    bool is_from_outside(std::size_t parameter) const { return p_.parameters[parameter].from_outside; }
     const std::vector<int>& constants() const {
         return constants_;
     }  ///< nodes that depend on parameters only, in the order of `par`
@@ -49,9 +54,11 @@ public:
 
 private:
     void find_constants();
+    /// Of each node, whether it depends on an input from outside.
+    std::vector<char> by_inputs() const;
 
     const Program& p_;
-    int n_, s_;
+    int n_, s_, first_input_ = 0, inputs_ = 0;
     Names names_;
     std::vector<std::string> q_, u_, a_, par_;
     std::map<int, std::string> unknown_;  ///< the direction of program/tangent.hpp, by place

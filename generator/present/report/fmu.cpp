@@ -45,7 +45,7 @@ Json as_json(const FunctionalUnit& unit, const std::string& path) {
     result["parameters"] = names_of_kind(unit, UnitKind::parameter);
     result["fixed_parameters"] = names_of_kind(unit, UnitKind::tied_parameter);
     result["event_indicators"] = names_of_kind(unit, UnitKind::event);
-    result["directional_derivatives"] = true;
+    result["directional_derivatives"] = unit.contacts == 0;
     return result;
 }
 

@@ -14,8 +14,11 @@ Program begun(const Mechanism& m, bool fold) {
     Program program;
     program.source_labels = m.z->source_labels();
     for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent && !fold)
-            program.parameters.push_back({p.symbol.get_name(), p.unit, p.number().to_double()});
+        if (p.independent && (!fold || p.from_outside))
+            program.parameters.push_back({.name = p.symbol.get_name(),
+                                          .unit = p.unit,
+                                          .value = p.number().to_double(),
+                                          .from_outside = p.from_outside});
     for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
     program.name = m.name;
     return program;

@@ -145,10 +145,13 @@ int Lowering::symbol(const GiNaC::symbol& s) {
 
 int Lowering::parameter(int index) {
     const Mechanism::Parameter& p = m_.parameters[index];
+    const auto is_variable = [this](const Mechanism::Parameter& of) {
+        return of.independent && (!fold_ || of.from_outside);
+    };
     if (!p.independent && fold_) return program_.number(folded(p.value));
-    if (!p.independent || fold_) return (*this)(p.value);
+    if (!is_variable(p)) return (*this)(p.value);
     int position = 0;
-    for (int i = 0; i < index; ++i) position += m_.parameters[i].independent ? 1 : 0;
+    for (int i = 0; i < index; ++i) position += is_variable(m_.parameters[i]) ? 1 : 0;
     return program_.variable({Variable::Kind::parameter, position});
 }
 

@@ -103,21 +103,22 @@ private:
         if (!is_2_) {
             add("  <ModelExchange modelIdentifier=\"{}\" canGetAndSetFMUState=\"true\" "
                 "canSerializeFMUState=\"true\" "
-                "providesDirectionalDerivatives=\"true\" needsCompletedIntegratorStep=\"true\"/>\n",
-                name_);
+                "providesDirectionalDerivatives=\"{}\" needsCompletedIntegratorStep=\"true\"/>\n",
+                name_, m_.contacts == 0);
             add("  <CoSimulation modelIdentifier=\"{}\" canGetAndSetFMUState=\"true\" "
                 "canSerializeFMUState=\"true\" "
-                "providesDirectionalDerivatives=\"true\" canHandleVariableCommunicationStepSize=\"true\"/>\n",
-                name_);
+                "providesDirectionalDerivatives=\"{}\" canHandleVariableCommunicationStepSize=\"true\"/>\n",
+                name_, m_.contacts == 0);
             return;
         }
         const std::string files = fmt::format(
             "    <SourceFiles>\n      <File name=\"{0}.c\"/>\n      <File name=\"{0}_fmu.c\"/>\n    "
             "</SourceFiles>\n",
             name_);
-        const std::string abilities =
+        const std::string abilities = fmt::format(
             " canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" "
-            "canSerializeFMUstate=\"true\" providesDirectionalDerivative=\"true\"";
+            "canSerializeFMUstate=\"true\" providesDirectionalDerivative=\"{}\"",
+            m_.contacts == 0);
         add("  <ModelExchange modelIdentifier=\"{}\"{}>\n{}  </ModelExchange>\n", name_, abilities, files);
         add("  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
             "canInterpolateInputs=\"true\"{}>\n{}  </CoSimulation>\n",

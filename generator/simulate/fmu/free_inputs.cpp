@@ -51,6 +51,7 @@ public:
         for (std::size_t k = 0; k < result_.inputs.size(); ++k) {
             const FreeInput& f = result_.inputs[k];
             Expression& value = result_.scene.inputs[k].value;
+            result_.scene.inputs[k].from_outside = false;  // it is now, in the way of a unit
             value = parsed(fmt::format("{0}*({1} + {2}*(t - {4}) + {3}*(t - {4})^2/2) + (1 - {0})*({5})", f.is_set,
                                        f.given[0], f.given[1], f.given[2], result_.time, value.text),
                            &names);

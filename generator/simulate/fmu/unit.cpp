@@ -46,7 +46,10 @@ FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options
     unit.platform = options.version == 2 ? folder_2 : folder_3;
     const Source equations =
         emit(unit.program,
-             {.language = CodeLanguage::c, .longest_function = longest_function, .shares_multipliers = true});
+             {.language = CodeLanguage::c,
+              .functions = unit.contacts > 0 ? std::vector{unit.contact_function} : std::vector<NamedFunction>(),
+              .longest_function = longest_function,
+              .shares_multipliers = true});
     unit.name = equations.file.substr(0, equations.file.size() - 2);
     unit.variables = unit_variables(unit);
     Fingerprint print;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "analysis/contact/contacts.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/needs.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
 #include "program/switches.hpp"
@@ -17,16 +19,49 @@ namespace alembert {
 
 namespace {
 
-void refuse_contacts(const Mechanism& m) {
-    if (!m.unilateral.empty())
-        throw ModelError(say(
-            "a functional mock-up unit follows no contacts, because their modes change the equations, and this "
-            "scene has [[unilateral]]; use 'alembert simulate', or the library"));
+void refuse_friction(const Mechanism& m) {
     if (!m.frictions.empty())
         throw ModelError(
             say("a functional mock-up unit follows no dry friction that sticks, because sticking changes the "
                 "equations, and this scene has [[friction]]; use 'alembert simulate', or the library, or "
                 "friction that is a smooth function of the velocity"));
+}
+
+/// Contacts become forces of given sizes, which the C of the unit finds, and their gaps events behind the scene's.
+/// Returns the function that tells all of them. Throws ModelError for what such a unit cannot follow.
+std::optional<FunctionProgram> free_contacts(UnitModel& model) {
+    Mechanism& m = model.mechanism;
+    if (m.unilateral.empty()) return std::nullopt;
+    need_rates(model);
+    if (std::any_of(m.constraints.begin(), m.constraints.end(), [](const auto& c) { return c.tie.has_value(); }))
+        throw ModelError(say(
+            "a functional mock-up unit follows no contacts where constraints depend on each other at some poses "
+            "only; use 'alembert simulate', or the library"));
+    for (const Mechanism::Unilateral& contact : m.unilateral) {
+        model.contact_forces.push_back(contact.gap.multiplier.get_name());
+        model.moves_contacts = model.moves_contacts || !contact.gap.drift.is_zero();
+        for (const Mechanism::Definition& event : m.events)
+            if (m.z->depends(event.value, {contact.gap.multiplier}))
+                throw ModelError(say(
+                    "event '{}' looks at the force '{}' of a contact, which a functional mock-up unit does not "
+                    "watch; use 'alembert simulate', or the library",
+                    event.name, contact.gap.multiplier.get_name()));
+    }
+    FunctionProgram function = contact_function(m);
+    model.contacts = static_cast<int>(m.unilateral.size());
+    m = with_contact_forces(with_contacts_watched(std::move(m), {}));
+    for (std::size_t k = m.event_actions.size() - model.contact_forces.size(); k < m.event_actions.size(); ++k)
+        m.event_actions[k] = {.stop = false, .direction = -1};
+    Derived again = derived_again(model, m, model.by.empty() ? formalism_for(Need::multipliers).name : model.by);
+    static_cast<Derived&>(model) = std::move(again);
+    return function;
+}
+
+void need_mass_matrix(const Program& program) {
+    if (program.nodes_of(Group::mass).empty())
+        throw ModelError(say(
+            "contacts and events with impulses can be exported only by a formalism that gives the mass matrix; "
+            "name one, as in --by lagrange"));
 }
 
 /// Adds n entries for each event that has impulses.
@@ -45,10 +80,7 @@ void add_impulses(Program& program, const UnitModel& model) {
         throw ModelError(
             say("events with impulses can be exported only where the speeds are the rates of the coordinates; "
                 "leave [speeds] out, or the impulses"));
-    if (program.nodes_of(Group::mass).empty())
-        throw ModelError(
-            say("events with impulses can be exported only by a formalism that gives the mass matrix; name one, "
-                "as in --by lagrange"));
+    need_mass_matrix(program);
     std::vector<GiNaC::ex> list;
     for (const Mechanism::EventAction& action : m.event_actions)
         list.insert(list.end(), action.impulse.begin(), action.impulse.end());
@@ -71,7 +103,11 @@ void note_given(UnitModel& model, const Start& start) {
 
 /// The program with its signs held, its clocks, and its derivatives.
 void complete(UnitModel& model, Program program) {
-    watch_bases(program, model.mechanism.event_actions);
+    std::vector<Mechanism::EventAction>& actions = model.mechanism.event_actions;
+    const std::vector<Mechanism::EventAction> of_contacts(actions.end() - model.contacts, actions.end());
+    actions.resize(actions.size() - of_contacts.size());
+    watch_bases(program, actions);
+    actions.insert(actions.end(), of_contacts.begin(), of_contacts.end());
     if (const std::optional<Switched> held = switched(program)) {
         model.signs = static_cast<int>(held->frictions.size());
         program = held->program;
@@ -86,6 +122,7 @@ void complete(UnitModel& model, Program program) {
                              program.parameters.begin());
     model.clocks = add_clocks(program, watched, set);
     model.program = with_tangent(program).canonical();
+    model.contact_function.nodes = model.program.nodes_of(Group::function);
 }
 
 }  // namespace
@@ -101,7 +138,8 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     UnitModel model{derived(std::move(free.scene), {.by = by, .use = Use::run})};
     model.inputs = std::move(free.inputs);
     model.input_time = free.time;
-    refuse_contacts(model.mechanism);
+    refuse_friction(model.mechanism);
+    const std::optional<FunctionProgram> contacts = free_contacts(model);
     if (!model.mechanism.impulses.empty())
         model.warn(
             "before_impulses",
@@ -119,6 +157,10 @@ UnitModel unit_model(Scene scene, const std::string& by) {
         sudden_times(quick_times(program, model.start.parameters, start.t, start.t + start.duration));
     model.times_follow = parameters_of_inputs(program, program.parameters.size());
     add_impulses(program, model);
+    if (contacts) {
+        need_mass_matrix(program);
+        model.contact_function = absorbed(program, *contacts);
+    }
     complete(model, std::move(program));
     model.start.parameters.resize(model.program.parameters.size(), 1);
     model.start.unknown.resize(direction_size(model.program), 0);

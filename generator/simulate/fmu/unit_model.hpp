@@ -16,6 +16,7 @@
 #include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
 #include "program/motion_system.hpp"
+#include "program/named_function.hpp"
 #include "simulate/fmu/clocks.hpp"
 #include "simulate/fmu/free_inputs.hpp"
 
@@ -25,7 +26,11 @@ struct UnitModel : Derived {
     std::vector<FreeInput> inputs = {};
     std::string input_time = {};  ///< as in FreeInputs
     Program program = {};
-    int signs = 0;  ///< parameters that hold a sign, the last of the program
+    int contacts = 0;  ///< parameters that hold the force of a contact, before the signs
+    std::vector<std::string> contact_forces = {};  ///< their names
+    bool moves_contacts = false;                   ///< whether a gap depends on time too
+    NamedFunction contact_function = {};           ///< contacts_at, whose nodes are in the program
+    int signs = 0;                                 ///< parameters that hold a sign, the last of the program
     std::vector<TimedZero> clocks = {};
     State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
     /// q, u as the scene has them, before the constraints have moved guesses; and which of them are guesses.
@@ -45,12 +50,12 @@ struct UnitModel : Derived {
     std::size_t parameter(const std::string& name) const;
     /// Parameters of the scene itself, which come first.
     std::size_t own_parameters() const {
-        return inputs.empty() ? program.parameters.size() - static_cast<std::size_t>(signs)
+        return inputs.empty() ? program.parameters.size() - static_cast<std::size_t>(contacts + signs)
                               : parameter(inputs[0].is_set);
     }
 };
 
-/// Throws what `derived` throws; ModelError for what a unit cannot follow: contacts, dry friction, and impulses
+/// Throws what `derived` throws; ModelError for what a unit cannot follow: dry friction, and contacts and impulses
 /// of events where the equations are in generalized speeds or have no mass matrix; IntegrationError or ModelError
 /// if the initial state cannot be made to obey the constraints.
 UnitModel unit_model(Scene scene, const std::string& by);

@@ -159,7 +159,18 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     has("energy", energy(p)), has("outputs_at", outputs_at(p)), has("events_at", events_at(p));
     has("multipliers_at", multipliers_at(p)), has("constraints_at", constraints_at(p));
     has("project", project(p)), has("impulses_at", impulses_at(p));
-    file.set("projection", projection_text(p, CodeLanguage::c));
+    const auto contacts = static_cast<std::size_t>(model.contacts);
+    number("contacts", contacts);
+    number("first_contact_force", parameters - signs - contacts);
+    file.set("has_contacts", contacts > 0);
+    file.set("moves_states", contacts > 0 || !project(p).results.empty());
+    file.set("watches_energy", !model.moves_contacts && !energy(p).results.empty());
+    const std::size_t kicks = p.nodes_of(Group::event_impulse).empty() ? 0 : 1;
+    file.set("projection", projection_text(p, CodeLanguage::c,
+                                           {.watches_energy = !model.moves_contacts,
+                                            .contacts = contacts,
+                                            .responses = std::max(contacts, kicks)}));
+    file.set("contacts_of_unit", kainjow::mustache::mustache{std::string(template_fmu_contacts)}.render(file));
     const auto rendered = [&file](std::string_view shape) {
         return kainjow::mustache::mustache{std::string(shape)}.render(file);
     };

@@ -64,7 +64,7 @@ private:
     }
 
     void add_states() {
-        const bool are_moved = !p_.nodes_of(Group::projected).empty(),
+        const bool are_moved = !p_.nodes_of(Group::projected).empty() || m_.contacts > 0,
                    are_struck = !p_.nodes_of(Group::event_impulse).empty();
         for (std::size_t i = 0; i < m_.coordinates(); ++i) {
             const Quantity& q = p_.coordinates[i];
@@ -203,15 +203,29 @@ private:
         add_roots(Kind::output, Group::output, outputs, hidden);
         if (p_.speeds.empty()) add_roots(Kind::output, Group::speed, outputs);  // otherwise they are states
         add_roots(Kind::multiplier, Group::multiplier, multipliers);
+        for (const std::string& force : m_.contact_forces)
+            add({.kind = Kind::multiplier, .place = multipliers++, .name = ascii_identifier(force)});
         add_roots(Kind::event, Group::event, events);
         // The rates of the functions whose signs are held come last, then clocks: they are no indicators.
         list_.resize(list_.size() - static_cast<std::size_t>(m_.signs) - m_.clocks.size());
     }
 
+    /// Forces of contacts depend on all that is known, and with them accelerations and outputs.
+    std::set<int> all_known() const {
+        std::set<int> known;
+        for (std::size_t k = 0; k < list_.size(); ++k)
+            if (const Kind kind = list_[k].kind;
+                kind == Kind::time || kind == Kind::state || kind == Kind::input || list_[k].is_parameter())
+                known.insert(static_cast<int>(k));
+        return known;
+    }
+
     void depend(UnitVariable& variable, int node) {
         std::set<int> known;
+        if (m_.contacts > 0) known = all_known();
         const int n = static_cast<int>(m_.coordinates());
         for (const auto& [kind, index] : dependence_.of(node)) {
+            if (m_.contacts > 0) break;
             if (kind == Variable::Kind::time) known.insert(0);
             if (kind == Variable::Kind::coordinate) known.insert(1 + index);
             if (kind == Variable::Kind::rate) known.insert(1 + n + index);
