@@ -46,7 +46,8 @@ Told told(Comparison& now) {
             .positive = now.positive,
             .own_factors = own_factors(now),
             .is_impact = now.at == Claim::At::impact,
-            .on_own_branch = now.on_own_branch != nullptr};
+            .on_own_branch = now.on_own_branch != nullptr ||
+                             (now.at == Claim::At::motion && now.basis.own_branch().has_value())};
 }
 
 int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims) {

@@ -10,6 +10,7 @@
 #include "check/any_motion.hpp"
 #include "check/arithmetic_error.hpp"
 #include "check/closed_claim.hpp"
+#include "check/claim_tree.hpp"
 #include "check/combinations.hpp"
 #include "check/completeness.hpp"
 #include "check/constants.hpp"
@@ -35,6 +36,18 @@ Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
 }
 
 namespace {
+
+/// The e of √e², of which arithmetic leaves e: its value has a meaning only where e ≥ 0.
+void collect_squared_roots(const Tree& tree, std::vector<const Tree*>& to) {
+    const auto is_root = [](const Tree& one) { return one.kind == Tree::Kind::call && one.text == "sqrt"; };
+    if (tree.kind == Tree::Kind::power && is_root(*tree.args[0])) to.push_back(tree.args[0]->args[0].get());
+    if (tree.kind == Tree::Kind::product)
+        for (std::size_t i = 0; i < tree.args.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k)
+                if (is_root(*tree.args[i]) && is_root(*tree.args[k]))
+                    to.push_back(tree.args[i]->args[0].get()), to.push_back(tree.args[k]->args[0].get());
+    for (const TreePtr& arg : tree.args) collect_squared_roots(*arg, to);
+}
 
 /// The claims of a scene that are compared with one basis.
 class Judging {
@@ -89,6 +102,7 @@ private:
         std::vector<Diagnostic> mistakes;
         const std::vector<ex> of_scene = sheets_ ? sheets_->positive() : std::vector<ex>();
         positive_.assign(now_.scene.claims.size(), of_scene);
+        domain_.resize(now_.scene.claims.size());
         assume();
         for (const Claim& claim : now_.scene.claims) try {
                 now_.forms.emplace_back();
@@ -97,6 +111,7 @@ private:
                 if (sheets_)
                     for (ex& needed : sheets_->take_needed())
                         add_positive(now_.forms.size() - 1, std::move(needed));
+                read_domain(claim);
                 Program p;
                 claims_.lower(p, {now_.forms.back().residual});
             } catch (const SceneMistake& mistake) {
@@ -107,6 +122,16 @@ private:
             }
         if (!mistakes.empty()) fail(now_.scene, mistakes);
         constants_.emplace(now_.scene, claims_, now_.forms);
+    }
+
+    void read_domain(const Claim& claim) {
+        std::vector<const Tree*> arguments;
+        for (const Expression* const side : {&claim.equation.lhs, &claim.equation.rhs})
+            collect_squared_roots(*side->tree, arguments);
+        std::vector<ex>& domain = domain_[now_.forms.size() - 1];
+        for (const Tree* const argument : arguments)
+            if (claim.at != Claim::At::impact) domain.push_back(claims_.read(expression_of(*argument)));
+        if (sheets_) sheets_->take_needed();
     }
 
     /// Reads what the claims assume, which is the same for all of one mode.
@@ -157,10 +182,11 @@ private:
     void compare_on_sheet_of(const std::vector<std::size_t>& claims) {
         now_.positive = now_.assumed;
         for (const std::size_t k : claims)
-            for (const ex& positive : positive_[k])
-                if (std::none_of(now_.positive.begin(), now_.positive.end(),
-                                 [&](const ex& known) { return (known - positive).expand().is_zero(); }))
-                    now_.positive.push_back(positive);
+            for (const std::vector<ex>* const list : {&positive_[k], &domain_[k]})
+                for (const ex& positive : *list)
+                    if (std::none_of(now_.positive.begin(), now_.positive.end(),
+                                     [&](const ex& known) { return (known - positive).expand().is_zero(); }))
+                        now_.positive.push_back(positive);
     }
 
     /// Whether the claim's own arithmetic fails, so that there is nothing to compare.
@@ -353,6 +379,7 @@ private:
     std::optional<GivenConstants> constants_;
     Comparison now_;
     std::vector<std::vector<ex>> positive_;  ///< what is positive on the sheet of each claim
+    std::vector<std::vector<ex>> domain_;    ///< and where each has a meaning
 };
 
 }  // namespace
