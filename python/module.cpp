@@ -301,6 +301,7 @@ py::array_t<double> states_at(Motion& motion, const Numbers& t) {
 
 void add_answers(py::module_& module) {
     module.def("ask", asked);
+    module.def("listen", listen);
     module.def("derive",
                [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
                    const SymbolicTurn turn;

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,10 @@ Turns& turns() {
 }
 
 thread_local bool has_turn = false;
+
+/// Whom the thread tells of its progress, or null. It owns a reference, which no end of a thread gives back: there
+/// is no lock of the interpreter then.
+thread_local PyObject* listener = nullptr;
 
 /// A process that is forked has the thread alone that forked it. Whoever else had a turn has left its work half
 /// done; no other verb can begin then.
@@ -114,12 +119,24 @@ void in_some_turn(std::function<void()> function) {
     give_back();
 }
 
-void look_for_interrupt(std::string_view, double) {
+py::object listen(const py::object& next) {
+    const py::object before = listener == nullptr ? py::none() : py::reinterpret_steal<py::object>(listener);
+    listener = next.is_none() ? nullptr : py::object(next).release().ptr();
+    return before;
+}
+
+void look_for_interrupt(std::string_view what, double part) {
     thread_local Clock::time_point last = Clock::now();
     if (Clock::now() - last < moment) return;
     last = Clock::now();
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw Interrupted{std::make_shared<py::error_already_set>()};
+    if (listener == nullptr || what.empty()) return;
+    try {
+        py::reinterpret_borrow<py::object>(listener)(std::string(what), part);
+    } catch (const py::error_already_set& raised) {
+        throw Interrupted{std::make_shared<py::error_already_set>(raised)};
+    }
 }
 
 }  // namespace alembert

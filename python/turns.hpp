@@ -61,4 +61,8 @@ struct Interrupted {
 /// by itself (alembert/base/interrupt.hpp).
 void look_for_interrupt(std::string_view what, double part);
 
+/// From now on `listener(what, part)` is called with the progress of the verbs of this thread, as often as that
+/// looks; an exception that it raises ends the verb. None: nobody is told. Gives the one before.
+pybind11::object listen(const pybind11::object& listener);
+
 }  // namespace alembert

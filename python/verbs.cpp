@@ -102,7 +102,7 @@ public:
     }
     /// The scene with the values and the functions of inputs that are given for a run.
     Scene given(Scene scene) const {
-        return with_values(with_given(std::move(scene), {.inputs = texts("input")}), at());
+        return with_values(with_given(std::move(scene), {.inputs = texts("input")}), exact_at());
     }
     RunOptions run_options() const {
         return {.by = by(),

@@ -3,6 +3,8 @@
 // small steps.
 #include <doctest/doctest.h>
 
+#include <cstdarg>
+
 #include "fmu_exports.hpp"
 
 namespace fmu_events {
@@ -129,6 +131,51 @@ impulses = { x = "-0.1*x'" }
         for (int k = 0; k * step < 10 - 1e-9; ++k) CHECK(one.step(k * step, step));
         CHECK(one.get("x") == doctest::Approx(x).epsilon(1e-10));
     }
+}
+
+namespace {
+
+std::vector<std::string> logged;
+
+extern "C" void log_of_2(void*, const char*, int, const char* category, const char* format, ...) {
+    va_list values;
+    va_start(values, format);
+    logged.push_back(std::string(category) + ": " + va_arg(values, const char*));
+    va_end(values);
+}
+
+}  // namespace
+
+// √(1 − x) + 1 has no zero, and no value beyond x = 1, where the particle is after 1 s.
+TEST_CASE("fmu: where the function of an event ceases to be a number, a unit says so, once") {
+    const Unit unit = exported(temporary("ends.toml", R"toml([coordinates]
+x = { initial = 0, rate = 1 }
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[[event]]
+name = "root"
+when = "sqrt(1 - x) + 1"
+stop = true
+)toml"),
+                               2);
+    const void* callbacks[5] = {reinterpret_cast<const void*>(log_of_2)};
+    const char *name = "one", *nowhere = nullptr;
+    void* const one = unit.call<void*>("fmi2Instantiate", name, 1, unit.token.c_str(), nowhere,
+                                       static_cast<const void*>(callbacks), 0, 0);
+    REQUIRE((one != nullptr));
+    logged.clear();
+    CHECK(unit.call("fmi2SetupExperiment", one, 0, 0.0, 0.0, 0, 0.0) == 0);
+    CHECK(unit.call("fmi2EnterInitializationMode", one) == 0);
+    CHECK(unit.call("fmi2ExitInitializationMode", one) == 0);
+    CHECK(unit.call("fmi2DoStep", one, 0.0, 0.9, 1) == 0);
+    CHECK(logged.empty());
+    for (int k = 0; k < 4; ++k) CHECK(unit.call("fmi2DoStep", one, 0.9 + 0.5 * k, 0.5, 1) == 0);
+    REQUIRE(logged.size() == 1);
+    CHECK(logged[0].find("logStatusWarning: ") == 0);
+    CHECK_MESSAGE(logged[0].find("the function of event.root is no number") != std::string::npos, logged[0]);
+    unit.call<void>("fmi2FreeInstance", one);
 }
 
 }  // namespace fmu_events

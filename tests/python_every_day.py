@@ -99,6 +99,25 @@ class EveryDay(unittest.TestCase):
         self.assertEqual(type(2 * run.final["coordinates"]["theta"]), float)
         self.assertEqual(scene.eval(scene.eval().coordinates).coordinates["theta"], scene.eval().coordinates["theta"])
 
+    def test_progress_is_told_and_may_end_a_verb(self):
+        scene, told = alembert.Scene(PENDULUM), []
+        lengths = np.linspace(1, 2, 30_000)
+        with alembert.progress(lambda what, part: told.append((what, part))):
+            scene.sweep({"l": lengths}, duration=20, threads=1)
+        self.assertTrue(told)
+        self.assertTrue(all(isinstance(what, str) and 0 <= part <= 1 for what, part in told))
+        self.assertGreater(max(part for _, part in told), 0.2)
+        count = len(told)
+        scene.sweep({"l": lengths[:10]}, duration=1)
+        self.assertEqual(len(told), count)  # nobody is told any more
+
+        def enough(what, part):
+            raise StopIteration(what)
+
+        with self.assertRaises(StopIteration), alembert.progress(enough):
+            scene.sweep({"l": lengths}, duration=20, threads=1)
+        self.assertEqual(len(scene.sweep({"l": [1, 2]}, duration=1)["final_theta"]), 2)
+
     def test_values_and_inputs_are_given_for_one_call(self):
         text = ("[parameters]\nm = 2\n[inputs]\nu = { value = 1, given = \"outside\" }\n[coordinates]\nx = 0\n[[particle]]\n"
                 "name = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n[forces]\nx = \"u\"\n[simulation]\nduration = 2\n")

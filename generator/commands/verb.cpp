@@ -235,7 +235,8 @@ Scene with_given(Scene scene, const GivenValues& given) {
         const std::string name = in_words_of(scene, typed.substr(0, equals)), how = typed.substr(equals + 1);
         scene = with_input(std::move(scene), name, how.ends_with(".csv") ? how : in_words_of(scene, how));
     }
-    const Overrides at = overrides_of(given.at, scene);
+    overrides_of(given.at, scene);  // refuses what is no number
+    const ExactOverrides at = exact_overrides_of(given.at, scene);
     return with_values(std::move(scene), at);
 }
 

@@ -21,7 +21,7 @@ from ._alembert import EnvironmentFailure, Error, IntegrationError, ModelError, 
 from ._motion import Run, Swept
 from ._results import (
     Agreed, Audited, Checked, Derivation, Drawn, Equation, Equilibria, Figure, Linearized, Marked, Result, SceneWarning,
-    SINumber, Sources, Stability)  # yapf: disable
+    SINumber, Sources, Stability, progress)  # yapf: disable
 from ._scene import Scene
 from ._system import Robot, RobotFunction, System
 from .expressions import from_sympy, to_sympy
@@ -30,7 +30,8 @@ __version__ = _alembert.version
 __all__ = [
     "Agreed", "Audited", "Checked", "Derivation", "Drawn", "EnvironmentFailure", "Equation", "Equilibria", "Error",
     "Figure", "IntegrationError", "Linearized", "Marked", "ModelError", "Result", "Robot", "RobotFunction", "Run", "SINumber",
-    "Scene", "SceneError", "SceneWarning", "Sources", "Stability", "Swept", "System", "from_sympy", "to_sympy",
+    "Scene", "SceneError", "SceneWarning", "Sources", "Stability", "Swept", "System", "from_sympy", "progress",
+    "to_sympy",
 ]  # yapf: disable
 for _name in __all__:  # where users find them, and where pickles look for them
     globals()[_name].__module__ = "alembert"

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What verbs give: JSON objects with attributes, claims with verdicts, derivations, pictures."""
 
+import contextlib as _contextlib
 import html as _html
 import itertools as _itertools
 import json as _json
@@ -351,6 +352,21 @@ class Derivation(Result):
 
     def __repr__(self):
         return self.page("text")
+
+
+@_contextlib.contextmanager
+def progress(told):
+    """Tells what the verbs of this thread do, up to twenty times a second: `told(what, part)` with the task and the part of it
+    that is done, from 0 to 1. An exception that it raises ends the verb.
+
+        with alembert.progress(lambda what, part: print(f"{what}: {part:.0%}")):
+            scene.sweep({"l": numpy.linspace(1, 2, 10_000)})
+    """
+    before = _alembert.listen(told)
+    try:
+        yield
+    finally:
+        _alembert.listen(before)
 
 
 def ask(verb, text, file, options, kind=Result):

@@ -11,6 +11,7 @@
 #include "analysis/state/given_inputs.hpp"
 #include "analysis/state/prepared.hpp"
 #include "base/language/say.hpp"
+#include "model/constant.hpp"
 #include "scene/check.hpp"
 #include "scene/known_names.hpp"
 #include "scene/lists.hpp"
@@ -21,25 +22,26 @@ namespace alembert {
 
 namespace {
 
-Expression number(double value) {
+/// A number, or an expression of numbers and pi.
+Expression constant(const std::string& value) {
     std::vector<Diagnostic> none;
-    return parse_expression(fmt::format("{:.17g}", value), {}, none);
+    return parse_expression(value, {}, none);
 }
 
 /// Gives the name its value; nothing happens to a name that is none of these, which `prepared` has refused.
-void give(Scene& scene, const std::string& name, double value) {
-    if (name == "t") scene.simulation.start = number(value);
+void give(Scene& scene, const std::string& name, const std::string& value) {
+    if (name == "t") scene.simulation.start = constant(value);
     for (Parameter& p : scene.parameters)
         if (p.name.text == name) {
-            p.value = number(value);
-            if (!p.shown.value.empty()) p.shown.value = fmt::format("{}", value / p.shown.size);
+            p.value = constant(value);
+            if (!p.shown.value.empty()) p.shown.value = fmt::format("{}", constant_number(value) / p.shown.size);
         }
     for (Coordinate& c : scene.coordinates) {
-        if (c.name.text == name) c.initial = number(value), c.initial_is_guess = false;
-        if (c.name.text + "'" == name) c.rate = number(value), c.rate_is_guess = false;
+        if (c.name.text == name) c.initial = constant(value), c.initial_is_guess = false;
+        if (c.name.text + "'" == name) c.rate = constant(value), c.rate_is_guess = false;
     }
     for (Speed& s : scene.speeds)
-        if (s.name.text == name) s.initial = number(value);
+        if (s.name.text == name) s.initial = constant(value);
 }
 
 /// Behind the text, by which an interrupted sweep knows its scene again.
@@ -148,13 +150,19 @@ Expression function_of(Scene& scene, const std::string& name, const std::string&
 
 }  // namespace
 
-Scene with_values(Scene scene, const Overrides& at) {
+Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::string>>& at) {
     if (at.empty()) return scene;
+    Overrides numbers;
+    for (const auto& [name, value] : at) numbers.emplace_back(name, constant_number(value));
     Scene quiet = scene;
     quiet.on_warning = [](const Warning&) {};
-    prepared(std::move(quiet), at);  // refuses what is wrong
-    for (const auto& [name, value] : with_inputs_given(scene, at)) give(scene, name, value);
-    for (const auto& [name, value] : at) note(scene, fmt::format("{} = {:.17g}", name, value));
+    prepared(std::move(quiet), numbers);  // refuses what is wrong
+    const Overrides others = with_inputs_given(scene, numbers);
+    for (const auto& [name, value] : at) {
+        const auto is_it = [&](const auto& one) { return one.first == name; };
+        if (std::any_of(others.begin(), others.end(), is_it)) give(scene, name, value);
+        note(scene, fmt::format("{} = {}", name, value));
+    }
     return scene;
 }
 

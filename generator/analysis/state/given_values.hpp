@@ -3,8 +3,8 @@
 
 /// A scene with other values than its own: those that a command line or a caller gives for one run.
 ///
-///     with_values(scene, {{"l", 2.0}, {"theta", 0.3}, {"theta'", 1.0}, {"t", 5.0}});   // parameters, the start
-///     with_input(scene, "u", "2*sin(t)");        // an input from outside is this function now
+///     with_values(scene, {{"l", "2"}, {"theta", "pi/2"}, {"theta'", "1"}, {"t", "5"}});   // parameters, the
+///     start with_input(scene, "u", "2*sin(t)");        // an input from outside is this function now
 ///     with_input(scene, "u", "measured.csv");    // or this table: a time and a value in each line
 ///
 /// A value that is given counts as the scene's own: it is no guess, and what the scene gives by others follows.
@@ -12,15 +12,17 @@
 /// slope jumps at the rows, which are switches of the run.
 
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "program/lower/start.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {
 
-/// Throws ModelError as `start_of` does: for a name that the scene does not have, or that follows from others, and
-/// for a value that is not finite.
-Scene with_values(Scene scene, const Overrides& at);
+/// Values as typed, in SI units, so that decimals are exact: constraints that follow from each other with 0.2
+/// and 1.8 still do. Throws ModelError for a value that is no number, and as `start_of` does: for a name that the
+/// scene does not have, or that follows from others, and for a value that is not finite.
+Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::string>>& at);
 
 /// Throws ModelError for a name that is no input from outside, for an expression that holds other names than
 /// parameters, inputs and t, and for a table with a line that is no two numbers, whose times do not grow, or that

@@ -77,6 +77,7 @@ public:
         add_units();
         add_types();
         add("  <LogCategories>\n    <Category name=\"logStatusError\" description=\"why a call has failed\"/>\n"
+            "    <Category name=\"logStatusWarning\" description=\"what is no longer seen\"/>\n"
             "  </LogCategories>\n");
         add("  <DefaultExperiment startTime=\"{}\" stopTime=\"{}\" tolerance=\"{}\" stepSize=\"{}\"/>\n",
             shortest(m_.start.t), shortest(m_.start.t + m_.duration), shortest(m_.tolerance),
