@@ -200,6 +200,60 @@ m*x'' + k*sign(x)*abs(abs(x) - b) = 0
     }
 }
 
+TEST_CASE("check: a cell that arithmetic modulo a prime takes for another one proves nothing") {
+    for (const std::string start : {"-1.9", "9", "20"}) {  // |x − 7| − |x| is −7 from 7 on
+        CAPTURE(start);
+        const Checked checked = checked_on_sheets(pushed_by("-k*x", "{ initial = " + start + " }"), R"(
+where x - 7 > 0
+abs(abs(x - 7) - abs(x)) = abs(20)
+abs(abs(x - 7) - abs(x)) = 8
+abs(abs(x - 7) - x) = 13
+)");
+        for (const CheckedClaim& claim : checked.claims) CHECK(claim.verdict != proved);
+    }
+    const Checked right = checked_on_sheets(pushed_by("-k*x", "{ initial = 9 }"), R"(
+where x - 7 > 0
+abs(abs(x - 7) - abs(x)) = 7
+abs(abs(x - 7) - abs(x)) + x' = 7 + x'
+)");
+    for (const CheckedClaim& claim : right.claims) CHECK(claim.verdict != refuted);
+}
+
+TEST_CASE("check: the square of a root has a meaning where the root has one") {
+    const Checked checked = checked_on_sheets(pushed_by("-k*abs(x + 20)", "{ initial = 2 }"), R"(
+m*x'' = -k*sqrt(x + 20)^2
+m*x'' = -k*sqrt(x + 20)*sqrt(x + 20)
+m*x'' = k*sqrt(x + 20)^2
+)");
+    CHECK(checked.claims[0].verdict != refuted);
+    CHECK(checked.claims[1].verdict != refuted);
+    CHECK(checked.claims[2].verdict == refuted);
+}
+
+TEST_CASE("check: a claim with absolute values is judged on the scene's own branch") {
+    const std::string scene = R"toml(
+[parameters]
+m = 1.9
+[coordinates]
+a = { initial = -6 }
+b = { initial = 2 }
+[[particle]]
+name = "A"
+mass = "m"
+position = ["a", 0]
+[[particle]]
+name = "B"
+mass = 2
+position = ["b", 0]
+[[constraint]]
+name = "z"
+holonomic = "(b + 4)*(a + 3*b)"
+)toml";
+    const Checked checked = checked_on_sheets(scene, "abs(a) = abs(3*b)\nabs(a) = abs(2*b)\n");
+    CHECK(checked.claims[0].verdict != refuted);
+    CHECK(checked.claims[1].verdict == refuted);
+}
+
 TEST_CASE("impossible: sums of what is positive cannot be negative") {
     const symbol x("x"), y("y"), a("a");
     CHECK(is_impossible({x - a, -x - a}, {a}));

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <vector>
 
+#include "edits.hpp"
 #include "present/report/html.hpp"
 #include "present/report/page_plot.hpp"
 #include "present/report/sha256.hpp"
