@@ -309,4 +309,21 @@ TEST_CASE("states: what they cannot be is refused where it stands") {
     CHECK(refusal("[coordinates]\nx = 0\n[states]\nx = { rate = \"1\" }\n").find("is taken") != std::string::npos);
 }
 
+TEST_CASE("states: a slip in a claim or in a derivation that holds them is found and named") {
+    const std::string scene = temporary("motor.toml", motor);
+    const std::string claims = temporary("slips.txt", "J*th'' = K*i - b*th' - tau\nJ*th'' = -b*th' - tau\n");
+    const Json checked = json_of({"check", scene, claims}, {}, 1)["claims"];
+    CHECK(checked[0]["likely"]["kind"] == "factor");
+    CHECK(checked[1]["likely"]["kind"] == "missing_term");
+    const std::string written =
+        temporary("derivation.tex",
+                  "The current obeys $L\\dot{i} = U - Ri + KN\\dot{\\theta}$. The shaft turns by "
+                  "$J\\ddot{\\theta} = KNi - b\\dot{\\theta} - \\tau$.\n");
+    const Json lines =
+        json_of({"check", scene, written, "--letters", "\\theta=th", "--letters", "\\tau=tau"}, {}, 1);
+    REQUIRE(lines["lines"].size() == 2);
+    CHECK(lines["lines"][0]["status"] == "mistake");
+    CHECK(lines["lines"][1]["status"] == "right");
+}
+
 }  // namespace commands_states
