@@ -357,6 +357,8 @@ axes = "H"
         CHECK(std::abs(std::hypot(x, y) - v) < 1e-11);
         CHECK(std::abs(number(motion["final"], "coordinates", "phi") - 1.2) < 1e-12);
         CHECK(json_of({"eval", scene})["state_rates"]["F"] == doctest::Approx(10));
+        const Json row = swept({scene, "--vary", "F=0:1:2"})["rows"][0];
+        CHECK(std::abs(row["final"]["states"]["F"].get<double>() - F) < 1e-11);
     }
     // On a rod that grows, r' = 0.1, without gravity: the angular momentum r² θ' stays, here 1·0.5.
     const std::string rod = temporary("rod.toml", R"toml(
