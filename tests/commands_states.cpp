@@ -10,6 +10,7 @@
 #include <complex>
 
 #include "edits.hpp"
+#include "files.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "shell.hpp"
@@ -307,6 +308,101 @@ TEST_CASE("states: what they cannot be is refused where it stands") {
               .find("determined by itself") != std::string::npos);
     CHECK(refusal("[coordinates]\nx = 0\n[states]\nz = 3\n").find("expected its rate") != std::string::npos);
     CHECK(refusal("[coordinates]\nx = 0\n[states]\nx = { rate = \"1\" }\n").find("is taken") != std::string::npos);
+}
+
+// Along its blade a sledge obeys m v' = F, whatever its turn: v = v0 + ∫F/m with F by the filter, F' = (F0 − F)/T.
+TEST_CASE("states: they stand beside generalized speeds, constraints and moving constraints") {
+    const std::string sledge = R"toml(
+[coordinates]
+x = 0
+y = 0
+phi = 0.2
+[speeds]
+v = { form = "x'*cos(phi) + y'*sin(phi)", initial = 1 }
+w = { form = "phi'", initial = 0.5 }
+[states]
+F = { rate = "(3 - F)/0.3" }
+[[constraint]]
+name = "blade"
+nonholonomic = "-x'*sin(phi) + y'*cos(phi)"
+)toml";
+    const std::string end = "[simulation]\nduration = 2\ntolerance = 1e-13\n";
+    const std::string by_energy = temporary("sledge.toml", sledge + R"toml(
+[energy]
+kinetic = "x'^2 + y'^2 + 0.2*phi'^2"
+[forces]
+x = "F*cos(phi)"
+y = "F*sin(phi)"
+)toml" + end);
+    const std::string by_body = temporary("sledge_body.toml", sledge + R"toml(
+[[frame]]
+name = "H"
+rotate = [["z", "phi"]]
+[[body]]
+name = "sledge"
+mass = 2
+frame = "H"
+inertia = 0.4
+position = ["x", "y"]
+[[force]]
+at = "sledge"
+vector = ["F", 0]
+axes = "H"
+)toml" + end);
+    const double F = 3 * (1 - std::exp(-2 / 0.3)), v = 1 + (3 * 2 - 0.3 * F) / 2;
+    for (const std::string& scene : {by_energy, by_body}) {
+        const Json motion = simulated(scene);
+        CHECK(std::abs(state(motion, "F") - F) < 1e-12);
+        const double x = number(motion["final"], "rates", "x"), y = number(motion["final"], "rates", "y");
+        CHECK(std::abs(std::hypot(x, y) - v) < 1e-11);
+        CHECK(std::abs(number(motion["final"], "coordinates", "phi") - 1.2) < 1e-12);
+        CHECK(json_of({"eval", scene})["state_rates"]["F"] == doctest::Approx(10));
+        const Json row = swept({scene, "--vary", "F=0:1:2"})["rows"][0];
+        CHECK(std::abs(row["final"]["states"]["F"].get<double>() - F) < 1e-11);
+    }
+    // On a rod that grows, r' = 0.1, without gravity: the angular momentum r² θ' stays, here 1·0.5.
+    const std::string rod = temporary("rod.toml", R"toml(
+[coordinates]
+x = 1
+y = 0
+[states]
+r = { rate = "0.1", initial = 1 }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "rod"
+holonomic = "x^2 + y^2 = r^2"
+[simulation]
+duration = 2
+tolerance = 1e-12
+)toml");
+    const Json grown = simulated(
+        temporary("rod_rates.toml", edited(contents(rod), {{"x = 1\n", "x = { initial = 1, rate = 0.1 }\n"},
+                                                           {"y = 0\n", "y = { initial = 0, rate = 0.5 }\n"}})));
+    const double x = number(grown["final"], "coordinates", "x"), y = number(grown["final"], "coordinates", "y"),
+                 p = x * number(grown["final"], "rates", "y") - y * number(grown["final"], "rates", "x");
+    CHECK(std::abs(std::hypot(x, y) - 1.2) < 1e-10);
+    CHECK(std::abs(p - 0.5) < 1e-10);
+    CHECK(run({"audit", rod}).out.find("rheonomic") != std::string::npos);
+}
+
+TEST_CASE("states: a slip in a claim or in a derivation that holds them is found and named") {
+    const std::string scene = temporary("motor.toml", motor);
+    const std::string claims = temporary("slips.txt", "J*th'' = K*i - b*th' - tau\nJ*th'' = -b*th' - tau\n");
+    const Json checked = json_of({"check", scene, claims}, {}, 1)["claims"];
+    CHECK(checked[0]["likely"]["kind"] == "factor");
+    CHECK(checked[1]["likely"]["kind"] == "missing_term");
+    const std::string written =
+        temporary("derivation.tex",
+                  "The current obeys $L\\dot{i} = U - Ri + KN\\dot{\\theta}$. The shaft turns by "
+                  "$J\\ddot{\\theta} = KNi - b\\dot{\\theta} - \\tau$.\n");
+    const Json lines =
+        json_of({"check", scene, written, "--letters", "\\theta=th", "--letters", "\\tau=tau"}, {}, 1);
+    REQUIRE(lines["lines"].size() == 2);
+    CHECK(lines["lines"][0]["status"] == "mistake");
+    CHECK(lines["lines"][1]["status"] == "right");
 }
 
 }  // namespace commands_states

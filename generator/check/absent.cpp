@@ -165,6 +165,7 @@ std::vector<Factors> terms_of_mechanics(const Claim& claim, const Mechanism& m, 
     for (const GiNaC::symbol& q : m.q) in_motion.push_back(name_tree(q.get_name(), 2));
     for (const GiNaC::symbol& lambda : e.lambda) in_motion.push_back(name_tree(lambda.get_name()));
     for (const Mechanism::Input& input : m.inputs) in_motion.push_back(name_of(input.derivative[0], m));
+    for (const Mechanism::State& z : m.states) in_motion.push_back(name_of(z.derivative[0], m));
     if (differentiates(*claim.equation.lhs.tree) || differentiates(*claim.equation.rhs.tree)) {
         std::vector<Factors> inner;
         for (const TreePtr& energy : known.of_energies) inner.push_back({energy});

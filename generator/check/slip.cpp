@@ -91,6 +91,7 @@ private:
         }
         for (const GiNaC::symbol& q : m_.q) words.coordinates.push_back(q.get_name());
         for (const Mechanism::Input& input : m_.inputs) words.inputs.push_back(input.derivative[0].get_name());
+        for (const Mechanism::State& z : m_.states) words.inputs.push_back(z.derivative[0].get_name());
         for (const GiNaC::symbol& lambda : e_.lambda) words.multipliers.push_back(lambda.get_name());
         const EquationTerms& terms = judge_.terms();
         TreesByText angles = terms.angles;

@@ -346,6 +346,7 @@ private:
         const std::size_t other = free.program.speeds.size() - m.states.size();
         if (!m.speeds.empty())
             for (std::size_t k = 0; k < other; ++k) {
+                if (free.program.speeds[k].rate_of >= 0) continue;
                 run_.speeds.push_back(free.program.speeds[k].name);
                 run_.final_speeds.push_back(end[m.q.size() + k]);
             }

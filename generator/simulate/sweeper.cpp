@@ -79,7 +79,8 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     program_ = with_signs_told(s_, lowered(s_).program);
     for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
     const std::size_t others = program_.speeds.size() - m.states.size();
-    for (std::size_t k = 0; k < others && !m.speeds.empty(); ++k) s_.speeds.push_back(program_.speeds[k].name);
+    for (std::size_t k = 0; k < others && !m.speeds.empty(); ++k)
+        if (program_.speeds[k].rate_of < 0) s_.speeds.push_back(program_.speeds[k].name);
     for (const Mechanism::State& z : m.states) s_.states.push_back(z.derivative[0].get_name());
     check_columns(end_columns(s_), wishes.columns);
     const bool phased = !program_.singular && is_phased(m, program_);

@@ -375,11 +375,11 @@ def _states(d, rng):
     if not near or rng.random() >= 0.35:
         return
     name = rng.choice(near)
-    rate = rng.choice([f"{name}' - {number(rng, 0.2, 2)}*z1", f"({name} - z1)/{number(rng, 0.1, 0.8)}",
-                       f"{number(rng, 0.1, 1)}*sin({name}) - {number(rng, 0.1, 1)}*z1*{name}'"])
-    d.scene["states"] = {"z1": {"rate": rate, "initial": number(rng, -0.5, 0.5)}}
+    rate = rng.choice([f"{name}' - {number(rng, 0.2, 2)}*zs1", f"({name} - zs1)/{number(rng, 0.1, 0.8)}",
+                       f"{number(rng, 0.1, 1)}*sin({name}) - {number(rng, 0.1, 1)}*zs1*{name}'"])
+    d.scene["states"] = {"zs1": {"rate": rate, "initial": number(rng, -0.5, 0.5)}}
     if rng.random() < 0.4:
-        d.scene["states"]["z2"] = {"rate": f"z1 - {number(rng, 0.5, 3)}*z2"}
+        d.scene["states"]["zs2"] = {"rate": f"zs1 - {number(rng, 0.5, 3)}*zs2"}
     forces = d.scene.setdefault("forces", {})
     last = list(d.scene["states"])[-1]
     forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*{last}"

@@ -80,12 +80,7 @@ public:
     }
 
 private:
-    std::vector<GiNaC::symbol> clock() const {
-        std::vector<GiNaC::symbol> symbols{m_.t};
-        for (const Mechanism::Input& input : m_.inputs)
-            symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
-        return symbols;
-    }
+    std::vector<GiNaC::symbol> clock() const { return m_.clock(); }
 
     bool is_rheonomic(const Mechanism::Constraint& c) const {
         std::vector<ex> values = c.row;

@@ -146,6 +146,7 @@ Letters::Letters(const Scene& scene) {
     };
     for (const Coordinate& c : scene.coordinates) know(c.name.text, true), coordinates_.push_back(c.name.text);
     for (const Speed& s : scene.speeds) know(s.name.text, true);
+    for (const FirstOrderState& z : scene.states) know(z.name.text, true);
     for (const Input& i : scene.inputs) know(i.name.text, true);
     for (const Definition& d : scene.definitions) know(d.name.text, true);
     for (const Parameter& p : scene.parameters) know(p.name.text, false);

@@ -275,6 +275,8 @@ std::string as_text(const LinearizedScene& d, bool with_modes) {
         if (rate != 0) put(page, ", {}' = {:.10g}", d.mechanism.q[i].get_name(), rate);
         put(page, "\n");
     }
+    for (std::size_t k = 0; k < d.mechanism.states.size(); ++k)
+        put(page, "  {} = {:.10g}\n", d.mechanism.states[k].derivative[0].get_name(), start.states[k] + 0.0);
     if (!near.dependent.empty()) say_on(page, "eliminated: {}\n", fmt::join(near.dependent, ", "));
     if (!near.left_out.empty())
         say_on(page, "left out, as nothing else depends on {}: {}\n",

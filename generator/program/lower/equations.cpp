@@ -245,9 +245,11 @@ private:
             const SymbolInfo& info = m_.symbols->info(e_.u[k]);
             const bool is_rate = info.kind == SymbolInfo::Kind::coordinate;
             const bool is_of_scene = k >= n_ - states_;
-            std::string unit = is_of_scene         ? m_.states[static_cast<std::size_t>(k - (n_ - states_))].unit
-                               : m_.speeds.empty() ? ""
-                                                   : m_.speeds[static_cast<std::size_t>(k)].unit;
+            std::string unit;
+            if (is_of_scene)
+                unit = m_.states[static_cast<std::size_t>(k - (n_ - states_))].unit;
+            else if (info.kind == SymbolInfo::Kind::speed && !m_.speeds.empty())
+                unit = m_.speeds[static_cast<std::size_t>(info.index)].unit;
             if (is_rate && states_ > 0) unit = per_second(m_.units[static_cast<std::size_t>(info.index)]);
             program_.speeds.push_back({.name = info.text(), .unit = unit, .rate_of = is_rate ? info.index : -1});
             udot.push_back(program_.variable({Variable::Kind::acceleration, k}));

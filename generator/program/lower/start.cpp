@@ -152,7 +152,9 @@ Start start_of(const Mechanism& m, const Overrides& overrides) {
 State<double> state_of(const Start& start, const Mechanism& m, const Equations& equations) {
     State<double> state = start.state();
     if (equations.speeds_are_rates()) return state;
-    if (!start.speeds.empty()) {
+    // Those of the scene, and not its rates with its states behind them.
+    const bool has_own_speeds = !start.speeds.empty() && equations.u.front().is_equal(m.speeds.front().u);
+    if (has_own_speeds) {
         state.qdot = start.speeds;
         state.qdot.insert(state.qdot.end(), start.states.begin(), start.states.end());
     } else {
