@@ -46,8 +46,7 @@ Told told(Comparison& now) {
             .positive = now.positive,
             .own_factors = own_factors(now),
             .is_impact = now.at == Claim::At::impact,
-            .on_own_branch = now.on_own_branch != nullptr ||
-                             (now.at == Claim::At::motion && now.basis.own_branch().has_value())};
+            .on_own_branch = now.on_own_branch != nullptr};
 }
 
 int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims) {

@@ -195,15 +195,28 @@ std::vector<std::string> InCells::where_it_holds() const {
     return {fmt::format("{}", fmt::join(signs, ", "))};
 }
 
-/// Whether there may be states in cells that exact arithmetic has not visited. It takes −7 for positive where −7 is a
-/// square modulo the prime; then it visits a cell without states in the place of another one.
+/// Whether there may be states in cells that exact arithmetic has not visited. Where |·| stands within |·|, as in
+/// ||x − 7| − |x||, a side may be a number in a cell, −7, which counts as positive where it is a square modulo the
+/// prime. Then a cell without states is visited in the place of its neighbour across that side.
 bool InCells::may_have_others() const {
-    const bool has_wrong_one = std::any_of(known_.begin(), known_.end(),
-                                           [](const auto& one) { return one.second == Known::empty; });
-    if (!has_wrong_one) return false;
-    for (Cell cell = 0; cell < Cell{1} << sides_.size(); ++cell)
-        if (!known_.contains(cell) && !is_empty(cell)) return true;
+    for (const auto& [cell, known] : known_) {
+        if (known != Known::empty) continue;
+        for (std::size_t k = 0; k < sides_.size(); ++k) {
+            const Cell neighbour = cell ^ (Cell{1} << k);
+            if (depends_on_sides(program_, {cells_->sides()[k]}) && !known_.contains(neighbour) &&
+                !is_empty(neighbour))
+                return true;
+        }
+    }
     return false;
+}
+
+/// A counterexample of the scene's own branch, if it has branches; nothing if none was found there.
+std::optional<Counterexample> InCells::on_own_branch(const Counterexample& shown) {
+    if (now_.on_own_branch != nullptr || !now_.basis.own_branch()) return shown;
+    Told own = told(now_);
+    own.on_own_branch = true;
+    return counterexample(own, states_.motions, program_, root_);
 }
 
 bool InCells::refuse(const std::string& reason) {
@@ -243,6 +256,11 @@ bool InCells::settle() {
     }
     for (const auto& [cell, exact] : visited_) known_[cell] = look(cell, exact);
     if (shown_) {
+        shown_ = on_own_branch(*shown_);
+        if (!shown_)
+            return refuse(
+                say("it fails on a branch of the constraints, and it could not be decided whether it holds on "
+                    "that of the initial state"));
         refute(c, *shown_);
         c.holds_where = where_it_holds();
         explain(now_, claim_, states_);

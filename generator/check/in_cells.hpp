@@ -41,6 +41,7 @@ private:
     Known look(Cell cell, const Exact& exact);
     bool is_empty(Cell cell) const;
     bool may_have_others() const;
+    std::optional<Counterexample> on_own_branch(const Counterexample& shown);
     std::string words(Cell cell) const;
     std::string side_in_words(std::size_t side, bool is_positive) const;
     std::vector<std::string> where_it_holds() const;
