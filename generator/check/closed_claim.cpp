@@ -412,8 +412,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
         return;
     }
     Told of = told(now);  // |a| = |3 b| may fail on another branch, without signs that exact arithmetic knows
-    of.on_own_branch = of.on_own_branch || (now.at == Claim::At::motion && depends_on_sides(p, {root}) &&
-                                            now.basis.own_branch().has_value());
+    of.on_own_branch = of.on_own_branch || (depends_on_sides(p, {root}) && has_branches(now));
     const auto shown = counterexample(of, states.motions, p, root);
     if (!shown) {  // exact arithmetic does not know every identity; nothing is called wrong without a state at
                    // which it fails

@@ -38,6 +38,10 @@ const std::vector<GiNaC::ex>& own_factors(Comparison& now) {
 
 }  // namespace
 
+bool has_branches(Comparison& now) {
+    return now.at == Claim::At::motion && now.assumed.empty() && now.basis.own_branch().has_value();
+}
+
 Told told(Comparison& now) {
     return {.mechanism = now.m,
             .equations = now.e,

@@ -46,6 +46,8 @@ struct Comparison {
     std::set<std::size_t> wrong = {};  ///< the wrong ones of claims that share open names
 };
 
+/// Whether claims are about the scene's own branch of several. What a claim assumes may exclude that branch.
+bool has_branches(Comparison& now);
 Told told(Comparison& now);
 
 /// How often angles must be halved for the residuals of these claims to be rational.

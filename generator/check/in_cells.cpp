@@ -213,7 +213,7 @@ bool InCells::may_have_others() const {
 
 /// A counterexample of the scene's own branch, if it has branches; nothing if none was found there.
 std::optional<Counterexample> InCells::on_own_branch(const Counterexample& shown) {
-    if (now_.on_own_branch != nullptr || !now_.basis.own_branch()) return shown;
+    if (now_.on_own_branch != nullptr || !has_branches(now_)) return shown;
     Told own = told(now_);
     own.on_own_branch = true;
     return counterexample(own, states_.motions, program_, root_);

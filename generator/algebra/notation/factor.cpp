@@ -164,7 +164,7 @@ private:
             for (const auto& [atom, occurrence] : atoms_) {
                 const auto here =
                     std::find_if(term.monomial.begin(), term.monomial.end(),
-                                 [&](const Factor& factor) { return compare(factor.atom, atom) == 0; });
+                                 [&of = atom](const Factor& factor) { return compare(factor.atom, of) == 0; });
                 row.push_back(here == term.monomial.end()
                                   ? 0
                                   : cln::cl_I_to_long(cln::numerator(here->exponent / occurrence.unit)));

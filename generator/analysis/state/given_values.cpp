@@ -159,7 +159,7 @@ Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::str
     prepared(std::move(quiet), numbers);  // refuses what is wrong
     const Overrides others = with_inputs_given(scene, numbers);
     for (const auto& [name, value] : at) {
-        const auto is_it = [&](const auto& one) { return one.first == name; };
+        const auto is_it = [&of = name](const auto& one) { return one.first == of; };
         if (std::any_of(others.begin(), others.end(), is_it)) give(scene, name, value);
         note(scene, fmt::format("{} = {}", name, value));
     }
