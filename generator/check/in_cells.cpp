@@ -195,20 +195,27 @@ std::vector<std::string> InCells::where_it_holds() const {
     return {fmt::format("{}", fmt::join(signs, ", "))};
 }
 
-/// Whether there may be states in cells that exact arithmetic has not visited. Where |·| stands within |·|, as in
-/// ||x − 7| − |x||, a side may be a number in a cell, −7, which counts as positive where it is a square modulo the
-/// prime. Then a cell without states is visited in the place of its neighbour across that side.
-bool InCells::may_have_others() const {
+/// Looks into cells that exact arithmetic has not visited though they may have states; returns whether there are
+/// any. Where |·| stands within |·|, as in ||x − 7| − |x||, a side may be a number in a cell, −7, which counts as
+/// positive where it is a square modulo the prime. Then a cell without states is visited in the place of its
+/// neighbour across that side.
+bool InCells::look_beside() {
+    bool has_others = false;
     for (const auto& [cell, known] : known_) {
         if (known != Known::empty) continue;
         for (std::size_t k = 0; k < sides_.size(); ++k) {
             const Cell neighbour = cell ^ (Cell{1} << k);
-            if (depends_on_sides(program_, {cells_->sides()[k]}) && !known_.contains(neighbour) &&
-                !is_empty(neighbour))
-                return true;
+            if (!depends_on_sides(program_, {cells_->sides()[k]}) || known_.contains(neighbour) ||
+                is_empty(neighbour))
+                continue;
+            has_others = true;
+            SeenInCell& seen = seen_[neighbour];
+            look_in_cell(told(now_), states_.motions, {program_, root_, *cells_}, neighbour, enough_in_numbers,
+                         seen);
+            if (!shown_) shown_ = seen.fails;
         }
     }
-    return false;
+    return has_others;
 }
 
 /// A counterexample of the scene's own branch, if it has branches; nothing if none was found there.
@@ -255,6 +262,7 @@ bool InCells::settle() {
         if (!shown_) shown_ = seen.fails;
     }
     for (const auto& [cell, exact] : visited_) known_[cell] = look(cell, exact);
+    const bool has_others = look_beside();
     if (shown_) {
         shown_ = on_own_branch(*shown_);
         if (!shown_)
@@ -276,7 +284,7 @@ bool InCells::settle() {
                                 words(unknown->first))
                           : say("in exact arithmetic it fails where {}, and no state in numbers was found there",
                                 words(unknown->first)));
-    if (!has_visited_all || is_beyond || may_have_others())
+    if (!has_visited_all || is_beyond || has_others)
         return refuse(say("it holds at all states that were tried, and these do not reach every choice of signs"));
     c.verdict = Verdict::proved;
     c.failure = -INFINITY;

@@ -40,7 +40,7 @@ private:
     bool visit();
     Known look(Cell cell, const Exact& exact);
     bool is_empty(Cell cell) const;
-    bool may_have_others() const;
+    bool look_beside();
     std::optional<Counterexample> on_own_branch(const Counterexample& shown);
     std::string words(Cell cell) const;
     std::string side_in_words(std::size_t side, bool is_positive) const;
