@@ -405,4 +405,27 @@ TEST_CASE("states: a slip in a claim or in a derivation that holds them is found
     CHECK(lines["lines"][1]["status"] == "right");
 }
 
+TEST_CASE(
+    "states: --at gives a state its start in every verb that integrates, and refuses what the scene has not") {
+    const std::string scene = temporary("relaxes.toml", R"toml(
+[parameters]
+tau = 1
+[states]
+f = { rate = "-f/tau", initial = 0 }
+[simulation]
+duration = 2
+)toml");
+    const auto end = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> line{"simulate", scene, "--json"};
+        line.insert(line.end(), more.begin(), more.end());
+        return run(line);
+    };
+    const auto told = end({"--at", "f=3"});
+    INFO(told.err);
+    REQUIRE(told.exit == 0);
+    CHECK(std::abs(Json::parse(told.out)["final"]["states"]["f"].get<double>() - 3 * std::exp(-2)) < 1e-10);
+    CHECK(end({"--at", "foo=1"}).exit == 3);
+    CHECK(run({"equilibrium", temporary("counter.toml", "[states]\nn = {}\n")}).exit <= 2);
+}
+
 }  // namespace commands_states

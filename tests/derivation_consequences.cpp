@@ -200,6 +200,9 @@ TEST_CASE("consequences: a wrong virtual displacement goes on in the work and in
     CHECK(statuses(toggle, slip + work +
                                "In equilibrium\n"
                                "$$\\tan\\varphi = \\frac{m g}{k(2 l\\cos\\varphi - a)}$$") == "RRMRFF");
+    CHECK(statuses(pendulum,
+                   "$x = l\\sin\\theta$, $y = -l\\cos\\theta$\n\n$$m g\\,\\delta y = 0$$\n"
+                   "$$m g l\\sin\\theta = 0$$") == "RRRR");
     // not what these displacements give
     CHECK(statuses(toggle, slip + "$$\\delta W = [-m g l\\cos\\varphi + 3 k(2 l\\cos\\varphi - a) "
                                   "l\\sin\\varphi]\\,\\delta\\varphi$$") == "RRMRM");
@@ -231,12 +234,31 @@ TEST_CASE("consequences: a coordinate that is held in a special case") {
     CHECK(statuses(block, "If the block is clamped, $u = 0$, then $l\\ddot\\theta + g\\cos\\theta = 0$.") == "--");
 }
 
+TEST_CASE("consequences: a place that is passed holds no coordinate") {
+    for (const std::string words : {"At the moment when the block passes $u = 0$, the pendulum obeys ",
+                                    "Initially $u = 0$, so ", "Die Feder ist bei $u = 0$ entspannt, dort gilt "}) {
+        CAPTURE(words);
+        CHECK(statuses(block, words + "$l\\ddot\\theta + g\\sin\\theta = 0$.").back() != 'R');
+    }
+}
+
+TEST_CASE("consequences: a kinetic energy K and a potential energy U stay energies beside T and V") {
+    CHECK(statuses(pendulum, "The kinetic energy is $K = m l\\dot\\theta$.") == "M");
+    CHECK(statuses(pendulum,
+                   "$$T = \\frac12 m l^2\\dot\\theta^2$$\n$$V = -m g l\\cos\\theta$$\n"
+                   "$$T + U = \\frac12 m l^2\\dot\\theta^2 + m g l\\cos\\theta$$") == "RRM");
+    CHECK(statuses(test::textbook_text("spherical_pendulum"),
+                   "$$T = \\frac12 m l^2(\\dot\\theta^2 + \\sin^2\\theta\\,\\dot\\phi^2)$$\n"
+                   "$$p_\\phi = m l^2\\sin^2\\theta\\,\\dot\\phi = K$$") == "RRD");
+}
+
 TEST_CASE("consequences: a potential that holds the scene's loads goes on in L") {
     const std::string all = "$$T = \\frac12 (m + 4M)\\dot x^2$$\n$$V = \\frac12 k x^2 - 2 M g x$$\n";
     CHECK(statuses(load, all + "$$\\frac{d}{dt}\\frac{\\partial L}{\\partial\\dot x} - "
                                "\\frac{\\partial L}{\\partial x} = 0$$") == "RRR");
     CHECK(statuses(load, all + "$$\\frac{\\partial L}{\\partial x} = 2 M g - k x$$") == "RRR");
     CHECK(statuses(load, all + "$$\\frac{\\partial L}{\\partial x} = 2 M g + k x$$") == "RRM");
+    CHECK(statuses(load, all + "$$T + V = \\text{const.}$$") == "RRR");
 }
 
 TEST_CASE("consequences: letters that the author counts otherwise, and angles of which the rate is stated") {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "alembert/base/error.hpp"
 #include "analysis/state/given_values.hpp"
@@ -227,16 +228,20 @@ void add_given_values(Verb& verb, GivenValues& given) {
 }
 
 Scene with_given(Scene scene, const GivenValues& given) {
+    std::set<std::string> named;
     for (const std::string& typed : given.inputs) {
         const std::size_t equals = typed.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == typed.size())
             throw ModelError(
                 say("--input {}: expected NAME=FILE.csv or NAME=EXPRESSION, as in --input \"u=sin(t)\"", typed));
         const std::string name = in_words_of(scene, typed.substr(0, equals)), how = typed.substr(equals + 1);
+        if (!named.insert(name).second) throw ModelError(say("--input gives '{}' twice", name));
         scene = with_input(std::move(scene), name, how.ends_with(".csv") ? how : in_words_of(scene, how));
     }
     overrides_of(given.at, scene);  // refuses what is no number
     const ExactOverrides at = exact_overrides_of(given.at, scene);
+    for (const auto& [name, value] : at)
+        if (named.contains(name)) throw ModelError(say("'{}' is given by --input and by --at", name));
     return with_values(std::move(scene), at);
 }
 

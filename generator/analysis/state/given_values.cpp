@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "analysis/state/assemble.hpp"
 #include "analysis/state/given_inputs.hpp"
 #include "analysis/state/prepared.hpp"
 #include "base/language/say.hpp"
@@ -42,6 +43,8 @@ void give(Scene& scene, const std::string& name, const std::string& value) {
     }
     for (Speed& s : scene.speeds)
         if (s.name.text == name) s.initial = constant(value);
+    for (FirstOrderState& z : scene.states)
+        if (z.name.text == name) z.initial = constant(value);
 }
 
 /// Behind the text, by which an interrupted sweep knows its scene again.
@@ -156,8 +159,8 @@ Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::str
     for (const auto& [name, value] : at) numbers.emplace_back(name, constant_number(value));
     Scene quiet = scene;
     quiet.on_warning = [](const Warning&) {};
-    prepared(std::move(quiet), numbers);  // refuses what is wrong
     const Overrides others = with_inputs_given(scene, numbers);
+    start_of(prepared(std::move(quiet), numbers).mechanism, others);  // refuses what is wrong
     for (const auto& [name, value] : at) {
         const auto is_it = [&of = name](const auto& one) { return one.first == of; };
         if (std::any_of(others.begin(), others.end(), is_it)) give(scene, name, value);

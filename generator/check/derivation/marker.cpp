@@ -107,6 +107,7 @@ void Marker::run() {
         hear_special_values(statement_->words);
         if (ends_sentence(statement_->words) || statement_->displayed) stated_place_.clear();
         special_.hear_end(statement_->words);
+        said_before_ = heard_.around;
         heard_.take_in(written_, *statement_);
         hear_bodies(statement_->words);
         if (statement_->sides.empty()) {

@@ -182,6 +182,7 @@ private:
     bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
     bool is_root(MarkedLine& line, const Sides& sides);
     void follows_as_constant(MarkedLine& line, const ClaimText& text);
+    bool is_meant_as_inertia(const Letter& letter) const;
     bool is_foreign_inertia(const Letter& letter, const GiNaC::ex& value);
     bool is_an_inertia(const GiNaC::ex& value);
     struct WrongInertia {
@@ -320,6 +321,7 @@ private:
     std::string spoken_;        ///< the body of which the words speak
     const WrittenStatement* statement_ = nullptr;
     Heard heard_;
+    std::string said_before_;              ///< the words around the statement before this one
     std::vector<BaseState> own_bases_;     ///< θ = π + ε: about which the author deviates
     std::optional<BaseState> near_;        ///< about which the derivation linearizes, once a line has shown it
     bool solves_constraints_ = false;      ///< whether its ∂/∂ψ' have been those of the independent rates
@@ -341,6 +343,7 @@ private:
     std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0
     GiNaC::exmap start_rates_;       ///< x' = ω y of motions with a special start
     GiNaC::exmap start_place_;       ///< φ = π/2 of "released from rest at φ = π/2"
+    bool is_place_held_ = false;     ///< and whether the words say that the coordinate is held there
     GiNaC::exmap stated_place_;      ///< θ = 0 of "at the bottom, θ = 0, T is …", in the same sentence
     SpecialValues special_;
     GiNaC::exmap used_values_;  ///< those of them for which the last line followed

@@ -107,6 +107,7 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     if (is_word_for_constant(letter.letter.base)) constants_.insert(name);
     line.claim = text.text + " = " + name;
     notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
+    if (has_potential_of_all_) notes_.back().claim = {};  // the check has the scene's V
     notes_.back().left = text;
     line.status = holds ? LineStatus::right : LineStatus::mistake;
     if (!holds) follows_as_constant(line, text);
@@ -277,7 +278,8 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
     if (power == 1) hold_momenta(name, text, own, wrong);
-    if (power == 1 && !wrong && is_foreign_inertia(letter.letter, truth)) inertias_[lines.size()] = truth;
+    if (power == 1 && !wrong && is_meant_as_inertia(letter.letter) && is_foreign_inertia(letter.letter, truth))
+        inertias_[lines.size()] = truth;
 }
 
 /// U_eff(θ) = V + J²/(2 m l² sin²θ): ∂U/∂θ is taken with J held, ∂H/∂p with q held, of what the author has

@@ -89,8 +89,11 @@ const Letter* Marker::place_of_rate(const Math& math) const {
 std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (statement_->in_words && system_.scene().particles.size() + system_.scene().bodies.size() > 1)
         return say("the words may mean the energy of a part");
+    const ex kept = kept_of(lhs, rhs);
+    const bool may_be_shifted =
+        system_.mechanism().z->depends(kept, system_.mechanism().qddot) || does_not_change(kept);
     for (const Math* const side : {&lhs, &rhs})
-        if (const Letter* const letter = place_of_rate(*side))
+        if (const Letter* const letter = place_of_rate(*side); letter != nullptr && may_be_shifted)
             return say("of {} only the rate has been stated", identifier_of(*letter));
     if (speaks_of_other_system(statement_->words)) return say("the words speak of another system");
     const std::size_t masses = system_.scene().particles.size() + system_.scene().bodies.size();
@@ -183,7 +186,8 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
     }
     if (holds_at_stated_place(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
         line.status = LineStatus::right;
-        line.reason = say("where {}", told_values(stated_place_));
+        line.reason = is_place_held_ ? say("held where {}", told_values(stated_place_))
+                                     : say("where {}", told_values(stated_place_));
         line.follows_from.reset();
         notes_.back().claim = {};
         return;

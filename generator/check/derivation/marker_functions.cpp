@@ -188,6 +188,7 @@ void Marker::note_place(const Math& lhs, const Math& rhs) {
         const ex place = m.z->expand(truth_.value(value.text));
         if (!is_of_parameters(place)) continue;
         stated_place_[q] = place;
+        is_place_held_ = says_held(statement_->words);
         if (heard_.start_from_rest) start_place_[q] = place;
     }
 }
@@ -215,7 +216,7 @@ bool Marker::holds_from_start(const ex& residual) {
 bool Marker::holds_at_stated_place(const ex& residual) {
     if (stated_place_.empty()) return false;
     return vanishes_at(residual, stated_place_) || follows_with(residual, stated_place_) ||
-           holds_where_held(residual);
+           (is_place_held_ && holds_where_held(residual));
 }
 
 /// "If the block is clamped, u = 0": the equations of the other coordinates, with u at rest there, give the line.

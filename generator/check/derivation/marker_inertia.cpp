@@ -5,6 +5,7 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/written/words.hpp"
 
 namespace alembert {
 
@@ -50,6 +51,17 @@ bool Marker::is_an_inertia(const ex& value) {
     return std::any_of(m.qdot.begin(), m.qdot.end(), [&](const GiNaC::symbol& rate) {
         const ex slope = m.z->pull_back({{m.kinetic_energy(), 1}}, {rate})[0];
         return is_identically_zero(m.z->name(m.z->pull_back({{slope, 1}}, {rate})[0] - value), m);
+    });
+}
+
+/// "The moment of inertia is J = …", or J of a J φ'' = M that stands above.
+bool Marker::is_meant_as_inertia(const Letter& letter) const {
+    if (speaks_of_inertia(heard_.around) || speaks_of_inertia(said_before_)) return true;
+    return std::any_of(&written_.statements.front(), statement_, [&](const WrittenStatement& above) {
+        std::map<Letter, int> all;
+        for (const MathPtr& side : above.sides) collect_letters(*side, all);
+        return all.contains(letter) && std::any_of(above.sides.begin(), above.sides.end(),
+                                                   [](const MathPtr& side) { return is_accelerated(*side); });
     });
 }
 

@@ -52,6 +52,7 @@ Displacements along(const Mechanism& m, int coordinate) {
 /// such a line.
 bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!holds_variation(lhs) && !holds_variation(rhs)) return false;
+    if (is_zero(rhs) && !holds_rates(lhs)) heard_.assumed_rest = true;  // Σ F δr = 0
     try {
         judge_displacements(line, lhs, rhs);
     } catch (const NoMeaning& reason) {
@@ -59,7 +60,6 @@ bool Marker::judge_virtual(MarkedLine& line, const Math& lhs, const Math& rhs) {
         if (!reason.unknown || !find_place(line, lhs, rhs, *reason.unknown)) throw;
     }
     if (line.status == LineStatus::mistake || line.status == LineStatus::follows) take_in_displacement(lhs, rhs);
-    if (is_zero(rhs) && !holds_rates(lhs)) heard_.assumed_rest = true;  // Σ F δr = 0
     return true;
 }
 

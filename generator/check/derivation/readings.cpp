@@ -81,21 +81,21 @@ std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
                          [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
 }
 
-/// Whether the text says of the letter what it is.
-bool states(const Written& written, const Letter& letter) {
+/// p_φ = (J + m R² sin² θ) φ' = K, K = m (u v' − v u') = const: a chain in which the letter is a momentum or keeps
+/// its value, linear in rates.
+bool is_integral(const Written& written, const Letter& letter) {
     return std::any_of(
         written.statements.begin(), written.statements.end(), [&](const WrittenStatement& statement) {
-            const Letter* const own = statement.sides.size() > 1 ? alone_in(*statement.sides[0]) : nullptr;
-            return own != nullptr && *own == letter;
+            bool is_there = false, is_kept = false, is_linear = false;
+            for (const MathPtr& side : statement.sides) {
+                const Letter* const own = alone_in(*side);
+                is_there = is_there || (own != nullptr && *own == letter);
+                is_kept = is_kept || (own != nullptr && (is_word_for_constant(own->base) || own->base == "cost" ||
+                                                         (own->base == "p" && !own->index.empty())));
+                is_linear = is_linear || is_linear_in_rates(*side);
+            }
+            return is_there && is_kept && is_linear;
         });
-}
-
-bool holds(const Written& written, const Letter& letter) {
-    return std::any_of(written.statements.begin(), written.statements.end(),
-                       [&](const WrittenStatement& statement) {
-                           return std::any_of(statement.sides.begin(), statement.sides.end(),
-                                              [&](const MathPtr& side) { return speaks_of(*side, letter); });
-                       });
 }
 
 /// The letter q of a derivation about one coordinate, which he calls nothing else: l q'' + g cos q = 0.
@@ -144,15 +144,11 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
                 const bool is_scenes = name && letters.is_of_scene(*name) && identifier_of(*letter) == *name;
-                if (letter->base == "K" && name && !is_scenes && is_known && is_linear_in_rates(value))
-                    letters.leave_to_author(*letter);  // an angular momentum
                 if (!is_scenes && has_motion(value, letters) && is_known && !holds_square_of_rate(value) &&
                     speaks_of_angular_momentum(statement.words))
                     letters.leave_to_author(*letter);
             }
-    for (const auto& [one, other] : {std::pair("T", "K"), std::pair("V", "U")})
-        if (states(written, {.base = one}) && !states(written, {.base = other}) && holds(written, {.base = other}))
-            letters.leave_to_author({.base = other});  // p_φ = K, where T is the kinetic energy
+    if (is_integral(written, {.base = "K"})) letters.leave_to_author({.base = "K"});
     return letters;
 }
 

@@ -154,6 +154,15 @@ bool names_part_of_forces(std::string_view words) {
         "弾性力による*|摩擦力の仕事*|摩擦力による*|摩擦による*|減衰力の仕事*|減衰力による*");
 }
 
+bool speaks_of_inertia(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "moment of inertia|moments of inertia|rotational inertia|inertia about|trägheitsmoment*|"
+        "massenträgheit*|转动惯量*|惯性矩*|moment d'inertie|moments d'inertie|momento de inercia|momento "
+        "d'inerzia|momento di inerzia|momento de inércia|moment bezwładności|tröghetsmoment*|момент "
+        "инерции|моменты инерции|моментом инерции|慣性モーメント*");
+}
+
 bool speaks_of_solution(std::string_view words) {
     return has_phrase(last_sentence(words),
                       "solution*|lösung*|lösen|solución*|soluzion*|solução|soluções|решени*|rozwiązani*|lösning*|"

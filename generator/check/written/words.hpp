@@ -89,6 +89,12 @@ bool mentions_special_motion(std::string_view words);
 /// "starts from rest": constants of the motion are zero.
 bool speaks_of_start_from_rest(std::string_view words);
 
+/// "The moment of inertia about the hinge is".
+bool speaks_of_inertia(std::string_view words);
+
+/// "If the block is clamped", "the cart is held": it does not move in what follows.
+bool says_held(std::string_view words);
+
 /// "A particular solution is": of one motion.
 bool speaks_of_solution(std::string_view words);
 

@@ -26,6 +26,15 @@ bool begins_condition(std::string_view words) {
     return ends_with_word(words, {"si", "se", "om", "för", "per"}) && trimmed_sentence(words).size() < 5;
 }
 
+bool says_held(std::string_view words) {
+    return has_phrase(last_sentence(words),
+                      "is fixed|held|held fast|hold*|clamp*|locked|blocked|does not move|does not turn|"
+                      "festgehalten|fixiert|arretiert|blockiert|eingespannt|不动*|固定*|夹住*|锁定*|"
+                      "est fixe|est fixé*|maintenu*|bloque|bloqué*|immobilis*|está fij*|bloquead*|no se mueve|"
+                      "è fiss*|bloccat*|não se move|travad*|fixad*|unieruchomion*|nie porusza się|hålls fast|låst|"
+                      "закреплён*|закреплен*|неподвижн*|удержива*|固定され*|動かない*");
+}
+
 bool states_condition(std::string_view words) {
     const std::string sentence = last_sentence(words);
     const bool is_conditional = has_phrase(

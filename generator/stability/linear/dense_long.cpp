@@ -80,6 +80,8 @@ long double least_eigenvalue(const LongMatrix& M) {
 }
 
 LongSingularValues singular_values(const LongMatrix& A) {
+    if (A.size() == 0)  // Eigen needs a row and a column
+        return {{}, LongMatrix::Identity(A.rows(), A.rows()), LongMatrix::Identity(A.cols(), A.cols())};
     const Eigen::JacobiSVD<LongMatrix> svd(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
     return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
 }
