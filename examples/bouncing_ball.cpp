@@ -34,5 +34,5 @@ restitution = 0.5
     const Run run = simulate(scene, {.method = "dop853", .duration = 2.4, .tolerance = 1e-10});
     for (const ContactEvent& event : run.motion.contacts) std::printf("impact at %.9f\n", event.time);
     std::printf("the estimated error is %s\n", *run.estimate->value < 1e-8 ? "below 1e-8" : "too large");
-    return run.doubts.empty() ? 0 : 1;
+    return run.distrust_reasons.empty() ? 0 : 1;
 }

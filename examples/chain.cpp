@@ -39,6 +39,6 @@ int main() {
         const Run run = simulate(chain(rods), {.duration = 2, .tolerance = 1e-11});
         std::printf("%d rods: the energy keeps %s\n", rods,
                     run.energy.drift < 1e-9 ? "to 1e-9" : "less than 9 digits");
-        if (!run.doubts.empty()) return 1;
+        if (!run.distrust_reasons.empty()) return 1;
     }
 }

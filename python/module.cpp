@@ -2,8 +2,8 @@
 /// The Python module `alembert._alembert`: one function for all verbs (verbs.hpp), and classes whose numbers
 /// Python reads without a copy. The package's Python part gives them names, units and documentation (alembert/).
 ///
-/// GiNaC is for one thread at a time: everything symbolic takes its turn (turns.hpp), without the interpreter's
-/// lock. The functions of many states release it too and use all cores.
+/// GiNaC is for one thread at a time: everything symbolic takes its turn (symbolic_turn.hpp), without the
+/// interpreter's lock. The functions of many states release it too and use all cores.
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "algebra/symbolic/number_mistake.hpp"
 #include "analysis/state/prepared.hpp"
 #include "base/archive/file_form.hpp"
@@ -26,11 +26,11 @@
 #include "present/report/run.hpp"
 #include "present/report/table_file.hpp"
 #include "scene/typed_words.hpp"
-#include "simulate/between_rows.hpp"
+#include "simulate/dense_output.hpp"
 #include "simulate/emission.hpp"
 #include "simulate/section.hpp"
+#include "symbolic_turn.hpp"
 #include "system.hpp"
-#include "turns.hpp"
 #include "verbs.hpp"
 
 namespace py = pybind11;
@@ -84,10 +84,10 @@ struct Motion {
     Run run;
     std::string section;
     SectionOfRun crossings;
-    std::unique_ptr<BetweenRows> between;
+    std::unique_ptr<DenseOutput> between;
 
-    BetweenRows& states() {
-        if (!between) between = std::make_unique<BetweenRows>(run, wishes);
+    DenseOutput& states() {
+        if (!between) between = std::make_unique<DenseOutput>(run, wishes);
         return *between;
     }
 };
@@ -282,7 +282,7 @@ py::array_t<double> robot_function(const CompiledSystem& s, int which, const py:
 }
 
 py::array_t<double> states_at(Motion& motion, const Numbers& t) {
-    BetweenRows& states = in_turn([&]() -> BetweenRows& { return motion.states(); });
+    DenseOutput& states = in_turn([&]() -> DenseOutput& { return motion.states(); });
     const auto width = static_cast<std::size_t>(states.dimension());
     std::vector<py::ssize_t> shape(t.shape(), t.shape() + t.ndim());
     shape.push_back(states.dimension());

@@ -10,8 +10,8 @@
 
 #include "alembert/base/error.hpp"
 #include "model/formalism/formalisms.hpp"
-#include "program/germ.hpp"
 #include "program/lower/start.hpp"
+#include "program/puiseux_series.hpp"
 #include "scenes.hpp"
 #include "stability/linear/linearize.hpp"
 
@@ -21,16 +21,16 @@ using namespace alembert;
 
 namespace {
 
-Germ along(double x, double slope) {
-    return Germ::path(x, 1e-13L, {static_cast<long double>(slope)});
+PuiseuxSeries along(double x, double slope) {
+    return PuiseuxSeries::path(x, 1e-13L, {static_cast<long double>(slope)});
 }
 
 /// Σ c_k ε^k of this germ equals the given function of ε up to the power of ε to which it is known.
-void check_series(const Germ& germ, long double (*f)(long double)) {
+void check_series(const PuiseuxSeries& germ, long double (*f)(long double)) {
     REQUIRE(germ.defined());
     const long double epsilon = 0.01L;
     long double sum = 0;
-    for (const Germ::Term& term : germ.terms())
+    for (const PuiseuxSeries::Term& term : germ.terms())
         sum += term.value * std::pow(epsilon, static_cast<long double>(term.exponent));
     CHECK(std::abs(sum - f(epsilon)) < 1e-9L);  // (0.01)^5 times a coefficient of ten
 }
@@ -73,8 +73,8 @@ TEST_CASE("germ: each function is the series of its closed form on a path throug
     check_series(acos(along(-1, 1)), [](long double e) { return std::acos(-1 + e); });
     check_series(atan2(along(0, -2), along(-1, 1)), [](long double e) { return std::atan2(-2 * e, -1 + e); });
     check_series(atan2(along(0, 3), along(0, 2)), [](long double) { return std::atan2(3.0L, 2.0L); });
-    check_series(pow(along(0, 1), Germ(2.5L)), [](long double e) { return std::pow(e, 2.5L); });
-    check_series(pow(along(0, -1), Germ(3)), [](long double e) { return -e * e * e; });
+    check_series(pow(along(0, 1), PuiseuxSeries(2.5L)), [](long double e) { return std::pow(e, 2.5L); });
+    check_series(pow(along(0, -1), PuiseuxSeries(3)), [](long double e) { return -e * e * e; });
     check_series(sin(along(0, 1)) / abs(along(0, 1)), [](long double e) { return std::sin(e) / e; });
     check_series(tan(along(0.4, 1)) + exp(along(-1, 2)),
                  [](long double e) { return std::tan(0.4 + e) + std::exp(-1 + 2 * e); });
@@ -83,8 +83,8 @@ TEST_CASE("germ: each function is the series of its closed form on a path throug
     check_series(sinh(along(0.3, 1)) - atan(along(2, 1)) * cosh(along(1, 1)),
                  [](long double e) { return std::sinh(0.3 + e) - std::atan(2 + e) * std::cosh(1 + e); });
     CHECK_FALSE(sqrt(along(0, -1)).defined());
-    CHECK_FALSE((Germ(1) / Germ(0)).defined());
-    CHECK(sin(Germ::path(std::numbers::pi, 1e-13L, {1})).side() ==
+    CHECK_FALSE((PuiseuxSeries(1) / PuiseuxSeries(0)).defined());
+    CHECK(sin(PuiseuxSeries::path(std::numbers::pi, 1e-13L, {1})).side() ==
           -1);  // π is not exact in floating point; the slope decides
 }
 

@@ -110,15 +110,15 @@ public:
 private:
     void move(std::vector<Digits>& x, const std::vector<int>& dependent, Group group,
               const std::vector<Digits>& value) const {
-        const std::vector<int> misfit = program_.nodes_of(group), rows = program_.nodes_of(Group::row);
+        const std::vector<int> residual = program_.nodes_of(group), rows = program_.nodes_of(Group::row);
         std::vector<std::vector<Digits>> S;
         std::vector<Digits> b;
-        for (std::size_t k = 0; k < misfit.size(); ++k) {
+        for (std::size_t k = 0; k < residual.size(); ++k) {
             if (group == Group::position && !m_.constraints[k].position) continue;
             S.emplace_back();
             for (const int j : dependent)
                 S.back().push_back(value[rows[k * m_.q.size() + static_cast<std::size_t>(j)]]);
-            b.push_back(value[misfit[k]]);
+            b.push_back(value[residual[k]]);
         }
         const std::vector<Digits> step = solved(S, b);
         for (std::size_t j = 0; j < dependent.size(); ++j) x[dependent[j]] = x[dependent[j]] - step[j];

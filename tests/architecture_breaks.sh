@@ -37,7 +37,7 @@ must_fail generator/simulate/simulate.cpp '#include "commands/show.hpp"'
 must_fail generator/check/check.cpp '#include <toml++/toml.h>'
 must_fail generator/check/check.hpp $'namespace alembert {\nstruct Crossing {'
 must_fail generator/commands/show.cpp '#include <CLI/CLI.hpp>'
-must_fail lib/alembert/ode/collocation.cpp "int long_function(int n) {
+must_fail lib/alembert/ode/radau_table.cpp "int long_function(int n) {
 $(lines 79)
 }"
 must_fail generator/check/check.hpp "inline constexpr auto long_lambda = [](int n) {

@@ -146,8 +146,8 @@ TEST_CASE("rattle: moving constraints, dampers and loads keep the order, and the
 }
 
 // With quaternions there is no inertia along e; L contains a term of the constraint there
-// (alembert/ode/hamiltonian.hpp). sin b = 0.4 sin 7t, x = 0.2 cos 7t + 0.5 cos b. Rows of duration/200 fall on
-// ends of steps up to rounding: steps of no length to there.
+// (alembert/ode/hamiltonian_system.hpp). sin b = 0.4 sin 7t, x = 0.2 cos 7t + 0.5 cos b. Rows of duration/200 fall
+// on ends of steps up to rounding: steps of no length to there.
 TEST_CASE(
     "rattle: a slider-crank without a degree of freedom goes where its drive takes it, with rows on its steps") {
     const std::string driven_crank = temporary("driven_crank.toml", R"toml(

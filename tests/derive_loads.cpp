@@ -144,7 +144,7 @@ TEST_CASE("derive: what slides against friction, and what a constraint holds, ar
         return phrases::symbol(GiNaC::symbol(name), info);
     };
     const Phrase half = phrases::number(Rational(1) / 2);
-    what.equalities.emplace_back(d.shown.frictions[0].slip, given("X", 1));
+    what.equalities.emplace_back(d.shown.frictions[0].sliding_velocity, given("X", 1));
     what.equalities.emplace_back(d.shown.constraints[0].second,
                                  phrases::sum({given("Y", 0), phrases::negative(half)}));
     CHECK(check_holds(d, what, 5) == 5);

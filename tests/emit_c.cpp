@@ -11,7 +11,7 @@
 #include <functional>
 #include <memory>
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "codegen/machine/memory_solver.hpp"
 #include "emitted.hpp"

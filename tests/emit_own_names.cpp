@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "codegen/emit/interface.hpp"
 #include "emitted.hpp"

@@ -48,7 +48,7 @@ TEST_CASE("fields: one elimination solves systems of primes, fractions and numbe
         auto primes = in<Prime>(system);
         const int rank = reduce_rows(primes, n);
         const auto fractions = solve_rows(in<numeric>(system), n);
-        CertainMatrix A(n, n), b(n, 1);
+        RealBallMatrix A(n, n), b(n, 1);
         for (int i = 0; i < A.rows; ++i) {
             for (int j = 0; j < A.columns; ++j)
                 A(i, j) = system[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];

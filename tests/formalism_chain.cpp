@@ -123,9 +123,9 @@ TEST_CASE("recursive: a moving chain from both ends has fewer roundings than a p
             BodyTree<double> tree = random_chain<double>(n, 0, seed + k);
             BodyTree<long double> wide = random_chain<long double>(n, 0, seed + k);
             for (int j = 0; j < n; ++j) {
-                const double rate = number(random), drift = number(random);
+                const double rate = number(random), bias = number(random);
                 tree.links[j].rate = rate, wide.links[j].rate = rate;
-                tree.links[j].drift = drift, wide.links[j].drift = drift;
+                tree.links[j].bias = bias, wide.links[j].bias = bias;
             }
             tree.gravity = {0.5, -9.81, 0}, wide.gravity = {0.5L, -9.81, 0};
             const Column<double> Q = random_loads(n, seed + k);

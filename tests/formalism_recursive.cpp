@@ -400,7 +400,7 @@ TEST_CASE("recursive: over doubles, articulated bodies undo composite bodies, wi
             link.sine = std::sin(c);
             link.shift = number(random);
             link.rate = number(random);
-            link.drift = number(random);
+            link.bias = number(random);
             for (int k = 0; k < 3; ++k) {  // three points of mass
                 const Triple<double> r = triple();
                 const double m = 1 + number(random) / 2;
@@ -416,8 +416,8 @@ TEST_CASE("recursive: over doubles, articulated bodies undo composite bodies, wi
         std::vector<double> Q;
         for (int j = 0; j < tree.size(); ++j) Q.push_back(number(random));
         for (const auto& rates : {articulated_bodies(tree, wrenches, Q), articulated_bodies(fewer, same, Q)}) {
-            BodyTree<double> moving = tree;  // inverse dynamics: drift + w' for w'
-            for (int j = 0; j < tree.size(); ++j) moving.links[j].drift += rates[j];
+            BodyTree<double> moving = tree;  // inverse dynamics: bias + w' for w'
+            for (int j = 0; j < tree.size(); ++j) moving.links[j].bias += rates[j];
             const auto loads = joint_loads(moving, Bias<double>(moving).wrenches);
             for (int j = 0; j < tree.size(); ++j) {
                 double sum = n[j];

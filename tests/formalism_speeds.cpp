@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "algebra/notation/text.hpp"
 #include "analysis/agree/agree.hpp"
@@ -175,7 +175,7 @@ TEST_CASE("kinematics: q' = h(q,u,t) inverts the forms and obeys what was elimin
             };
             CHECK(zero(m.speeds[k].form - m.speeds[k].u));
             for (const Equations::Eliminated& gone : e.eliminated) {
-                ex velocity = m.constraints[gone.constraint].drift;
+                ex velocity = m.constraints[gone.constraint].offset;
                 for (int i = 0; i < m.size(); ++i) velocity += m.constraints[gone.constraint].row[i] * m.qdot[i];
                 CHECK(zero(velocity));
             }

@@ -3,7 +3,7 @@
 // of L without any intermediate symbol are one and the same.
 #include <doctest/doctest.h>
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/emit/emit.hpp"

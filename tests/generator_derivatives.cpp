@@ -5,7 +5,7 @@
 #include <map>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "algebra/symbolic/symbols.hpp"
 #include "analysis/state/prepared.hpp"

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "alembert/batch/ensemble.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/energy_error.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/emit/emit.hpp"
@@ -53,7 +53,7 @@ Ensemble random_members(const Module& module, int count) {
 }
 
 /// A series that takes the steps of those in packs: its order follows from the costs of an order.
-SeriesModule with_costs_of(const SeriesPacks& packs, const SeriesModule& own) {
+SeriesModule with_costs_of(const PackSeries& packs, const SeriesModule& own) {
     struct WithCosts {
         SeriesModule own;
         alembert_series_table table;
@@ -73,7 +73,7 @@ bool add_series(Ensemble& e, const std::string& scene) {
     return true;
 }
 
-Trajectory alone(const Ensemble& e, std::size_t k, Options options, Drift* drift = nullptr) {
+Trajectory alone(const Ensemble& e, std::size_t k, Options options, EnergyError* energy_error = nullptr) {
     const alembert_solver_table& table = e.module.table();
     const auto part = [&](const std::vector<double>& all, int size) {
         const auto first = all.begin() + static_cast<std::ptrdiff_t>(k) * size;
@@ -85,9 +85,9 @@ Trajectory alone(const Ensemble& e, std::size_t k, Options options, Drift* drift
     std::vector<double> state = part(e.states, table.coordinates + table.speeds);
     if (e.work == Work::integrated) state.push_back(0);
     const std::vector<double> par = prepared(e.module, part(e.parameters, table.parameters));
-    if (drift != nullptr)
+    if (energy_error != nullptr)
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
-            (*drift)(table, par, t, y, rate);
+            (*energy_error)(table, par, t, y, rate);
         };
     Rhs rhs = make_rhs(e.module, part(e.parameters, table.parameters), e.work);
     if (e.series) rhs.series = make_series(e.series, part(e.parameters, table.parameters));
@@ -119,8 +119,8 @@ TEST_CASE(
         const Outcomes ends = integrate(e, options);
         CHECK(ends.packed == (method != Method::gauss && method != Method::radau));
         for (std::size_t k = 0; k < e.count(); ++k) {
-            Drift drift(module.table().coordinates, module.table().speeds, true);
-            const Trajectory one = alone(e, k, options, &drift);
+            EnergyError energy_error(module.table().coordinates, module.table().speeds, true);
+            const Trajectory one = alone(e, k, options, &energy_error);
             const Outcome& outcome = ends.members[k];
             // They differ only by rounding, which grows with the motion and changes a step's length in the same
             // ratio.
@@ -131,7 +131,7 @@ TEST_CASE(
             CHECK(std::abs(outcome.evaluations - one.statistics.evaluations) <= 13);
             // The drift of E is measured at the ends of steps, which rounding shifts a little; the balance is not
             // affected.
-            CHECK(std::abs(outcome.work_balance - drift.balance()) < 1e-10);
+            CHECK(std::abs(outcome.work_balance - energy_error.balance()) < 1e-10);
         }
     }
 }
@@ -152,15 +152,15 @@ TEST_CASE("ensemble: power series in packs take the steps of a single run, with 
             REQUIRE(ends.packed);
             for (std::size_t k = 0; k < e.count(); ++k) {
                 CAPTURE(k);
-                Drift drift(module.table().coordinates, module.table().speeds, true);
-                const Trajectory one = alone(e, k, options, &drift);
+                EnergyError energy_error(module.table().coordinates, module.table().speeds, true);
+                const Trajectory one = alone(e, k, options, &energy_error);
                 const Outcome& outcome = ends.members[k];
                 CHECK(distance(ends.state(k), one.final_state().first(ends.state(k).size())) < tolerance);
                 CHECK(outcome.failure.empty() == !one.failure);
                 CHECK(outcome.time == e.starts[k] + e.durations[k]);
                 CHECK(std::abs(outcome.steps - one.statistics.steps) <= 1);
                 CHECK(std::abs(outcome.evaluations - one.statistics.evaluations) <= 2);
-                CHECK(std::abs(outcome.work_balance - drift.balance()) < tolerance);
+                CHECK(std::abs(outcome.work_balance - energy_error.balance()) < tolerance);
             }
         }
     }

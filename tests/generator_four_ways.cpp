@@ -88,15 +88,16 @@ End by_unit(const Scenario& one) {
         const Numbers f = instance.rates();
         std::copy(f.begin(), f.end(), rate);
     };
-    Options options{.method = Method::dop853, .duration = duration, .tolerance = tolerance, .sample = 0.01};
+    System system{.rhs = make_rhs(size, rates)};
     if (!prepared(read_scene(one.scene)).mechanism.constraints.empty())
-        options.project = [&](double t, double* y) {
+        system.project = [&](double t, double* y) {
             instance.at(t, Numbers(y, y + size));
             if (instance.wants_event()) instance.update();
             const Numbers kept = instance.state();
             std::copy(kept.begin(), kept.end(), y);
         };
-    const Trajectory motion = integrate(make_rhs(size, rates), start, options);
+    const Trajectory motion = integrate(
+        system, start, {.method = Method::dop853, .duration = duration, .tolerance = tolerance, .sample = 0.01});
     REQUIRE(!motion.failure);
     const auto last = motion.final_state();
     instance.at(duration, Numbers(last.begin(), last.end()));

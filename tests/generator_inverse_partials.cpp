@@ -62,7 +62,7 @@ public:
                 link.sine = turned[1][0];
             }
             link.rate = any();
-            link.drift = any();
+            link.bias = any();
             link.body.mass = any();
             link.body.first = vector();
             for (Dual& moment : link.body.second) moment = any();

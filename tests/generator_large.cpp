@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/method.hpp"
 #include "sanitized.hpp"
 #include "simulate/simulate.hpp"
 #include "simulate/sweep.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "alembert/batch/packs.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "codegen/emit/emit.hpp"
 #include "model/formalism/lagrange.hpp"

@@ -10,7 +10,7 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/batch/packs.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/emit/emit.hpp"
 #include "codegen/machine/can_run.hpp"

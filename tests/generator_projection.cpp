@@ -8,7 +8,7 @@
 #include <random>
 
 #include "alembert/base/dense.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/projection.hpp"
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/prepared.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "analysis/state/prepared.hpp"
 #include "model/formalism/elements.hpp"

@@ -12,7 +12,7 @@
 #include <random>
 
 #include "alembert/batch/packs.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "codegen/emit/emit.hpp"
 

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/series.hpp"
 #include "alembert/ode/taylor.hpp"
 #include "analysis/state/assemble.hpp"
@@ -62,7 +62,7 @@ std::vector<double> series_of(const SeriesModule& module, double t, const std::v
 }
 
 /// Those in the given lane; the other lanes have states and times nearby.
-std::vector<double> series_of(const SeriesPacks& packs, const std::vector<double>& parameters, double t,
+std::vector<double> series_of(const PackSeries& packs, const std::vector<double>& parameters, double t,
                               const std::vector<double>& state, int order, int lane) {
     std::vector<double> own = parameters;
     own.resize(static_cast<std::size_t>(packs.parameters + packs.constants));
@@ -85,8 +85,8 @@ struct Emitted {
     Mechanism mechanism;
     Program program;
     SeriesModule module;
-    SeriesModule in_memory;                    ///< null where the processor has no such code
-    std::shared_ptr<const SeriesPacks> packs;  ///< likewise
+    SeriesModule in_memory;                   ///< null where the processor has no such code
+    std::shared_ptr<const PackSeries> packs;  ///< likewise
     std::vector<Coefficients> all() const {
         std::vector<Coefficients> result;
         for (const SeriesModule& one : {module, in_memory})
@@ -109,11 +109,11 @@ Emitted emitted(const Scene& scene, bool quad) {
     Program program = choose(m, e).program;
     std::vector<std::string> flags{"-O1"};
     if (quad) flags.emplace_back("-DALEMBERT_QUAD");
-    const Compiled compiled = compile(emit_taylor(program).text, program.name + "_taylor",
-                                      {.compiler = {}, .extra_flags = flags, .fast_math = false, .cache = {}});
+    const Compilation compiled = compile(emit_taylor(program).text, program.name + "_taylor",
+                                         {.compiler = {}, .extra_flags = flags, .fast_math = false, .cache = {}});
     const std::optional<MemorySeries> memory = memory_series(program);
     REQUIRE(memory.has_value() == machine::can_run());
-    std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program);
+    std::shared_ptr<const PackSeries> packs = memory_series_packs(program);
     REQUIRE((packs != nullptr) == machine::can_run());
     return {std::move(m), std::move(program), load_series(compiled.object),
             memory ? memory->module : SeriesModule(), std::move(packs)};

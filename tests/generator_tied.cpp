@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "alembert/batch/packs.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "analysis/contact/impact.hpp"
 #include "codegen/emit/emit.hpp"
 #include "codegen/machine/memory_solver.hpp"

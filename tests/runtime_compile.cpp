@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/fingerprint.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/native/process.hpp"
@@ -180,7 +180,7 @@ TEST_CASE("fingerprint: the published values of FNV-1a with 128 bits") {
 }
 
 TEST_CASE("process: arguments reach the program unchanged, and its output comes back") {
-    const Finished echo = run({find_program("printf").string(), "%s|", "a b", "$HOME", "`id`; *"});
+    const Process echo = run({find_program("printf").string(), "%s|", "a b", "$HOME", "`id`; *"});
     CHECK(echo.status == 0);
     CHECK(echo.output == "a b|$HOME|`id`; *|");
     CHECK(run({find_program("false").string()}).status == 1);
@@ -190,12 +190,12 @@ TEST_CASE("process: arguments reach the program unchanged, and its output comes 
 
 TEST_CASE("compile: the second time it comes from the cache; other text or flags do not") {
     const Cache cache;
-    const Compiled first = compile(pendulum_source(), "a pendulum/../x", cache.options());
+    const Compilation first = compile(pendulum_source(), "a pendulum/../x", cache.options());
     CHECK(!first.from_cache);
     CHECK(first.object.parent_path() == cache.path);
     CHECK(first.object.filename().string().starts_with("a_pendulum____x-"));
     CHECK(cache.files() == 2);  // object and source
-    const Compiled second = compile(pendulum_source(), "a pendulum/../x", cache.options());
+    const Compilation second = compile(pendulum_source(), "a pendulum/../x", cache.options());
     CHECK(second.from_cache);
     CHECK(second.object == first.object);
     CHECK(!compile(pendulum_source() + "// another\n", "a pendulum/../x", cache.options()).from_cache);
@@ -281,7 +281,7 @@ TEST_CASE("compile: every installed compiler accepts the flags") {
             CompileOptions options = cache.options();
             options.compiler = compiler;
             options.fast_math = fast;
-            const Compiled compiled = compile(pendulum_source(), "pendulum", options);
+            const Compilation compiled = compile(pendulum_source(), "pendulum", options);
             CHECK(!compiled.from_cache);
             CHECK(load(compiled.object).table().parameters == 3);
         }
@@ -294,7 +294,7 @@ TEST_CASE("compile: if the cache cannot be written, a private folder is used") {
     const Cache cache;
     const fs::path file = cache.path / "file";
     std::ofstream(file) << "in the way";
-    const Compiled compiled = compile(pendulum_source(), "pendulum", {.cache = file / "below"});
+    const Compilation compiled = compile(pendulum_source(), "pendulum", {.cache = file / "below"});
     CHECK(load(compiled.object).table().coordinates == 1);
     CHECK(compiled.object.parent_path() != file);
     const Variable xdg("XDG_CACHE_HOME", "relative/paths/are/ignored");
@@ -331,7 +331,7 @@ TEST_CASE(
 TEST_CASE("compile: folders of the cache and their contents belong to the owner only, whatever the umask is") {
     const Cache cache;
     const mode_t before = umask(0);
-    const Compiled compiled = compile(pendulum_source(), "pendulum", {.cache = cache.path / "a" / "b"});
+    const Compilation compiled = compile(pendulum_source(), "pendulum", {.cache = cache.path / "a" / "b"});
     umask(before);
     for (const fs::path& path : {cache.path / "a", cache.path / "a" / "b", compiled.object})
         CHECK(fs::status(path).permissions() == fs::perms::owner_all);

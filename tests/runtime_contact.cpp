@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
+#include "alembert/hybrid/frictionless_impact.hpp"
 #include "alembert/hybrid/hybrid_motion.hpp"
-#include "alembert/hybrid/impact.hpp"
 #include "solved.hpp"
 
 namespace runtime_contact {
@@ -117,14 +117,14 @@ TEST_CASE("contact: the contacts that stay closed are those that enumeration of 
         std::vector<int> all;
         for (int c = 0; c < k; ++c) all.push_back(c);
         const std::optional<VectorXd> expected = by_enumeration(s);
-        const Lasting found = lasting_contacts(s, all);
+        const LastingContacts found = lasting_contacts(s, all);
         CAPTURE(i);
         REQUIRE(bool(found) == expected.has_value());
         if (!expected) continue;
         // Condition numbers stay below 10⁵.
         CHECK((found.acceleration - *expected).norm() < 1e-9 * (1 + expected->norm()));
-        const ImpactResult pressed = press(s.M, s.f, {s.bilateral.rows, -s.bilateral.acceleration},
-                                           {s.contacts.rows, -s.contacts.acceleration});
+        const FrictionlessImpact pressed = press(s.M, s.f, {s.bilateral.rows, -s.bilateral.acceleration},
+                                                 {s.contacts.rows, -s.contacts.acceleration});
         const VectorXd rest = s.M * pressed.after - s.f - s.bilateral.rows.transpose() * pressed.bilateral -
                               s.contacts.rows.transpose() * pressed.contact;
         CHECK(rest.norm() < 1e-9 * (1 + s.f.norm() + pressed.contact.norm()));
@@ -148,7 +148,7 @@ TEST_CASE("contact: of four legs no more than three carry a plate, and none pull
                         .f = Eigen::Vector3d(-10, a, b),
                         .bilateral = no_rows(3),
                         .contacts = {legs, VectorXd::Zero(4), VectorXd::Zero(4), VectorXd::Zero(4)}};
-            const Lasting found = lasting_contacts(s, {0, 1, 2, 3});
+            const LastingContacts found = lasting_contacts(s, {0, 1, 2, 3});
             REQUIRE(found);
             CHECK(found.acceleration.norm() < 1e-12);
             CHECK(found.resting == std::vector<int>{0, 1, 2, 3});
@@ -187,7 +187,7 @@ TEST_CASE(
                 CAPTURE(floors);
                 Ball ball{.e = e, .floors = floors};
                 const double first = std::sqrt(2 / g), end = first * (1 + e) / (1 - e);
-                const PhasedMotion motion =
+                const HybridMotion motion =
                     follow(ball.contacts(), ball.mode_of(), {1, 0},
                            {.start = -1, .duration = end + 2, .tolerance = tolerance, .sample = 0.25});
                 REQUIRE(motion.ending == Ending::completed);
@@ -215,7 +215,7 @@ TEST_CASE("contact: a run that ends during the last bounces does not report the 
     Ball ball{.e = 0.5};
     const double end = 3 * std::sqrt(2 / g);
     for (const double left : {1e-3, 1e-6}) {
-        const PhasedMotion motion =
+        const HybridMotion motion =
             follow(ball.contacts(), ball.mode_of(), {1, 0}, {.duration = end - left, .tolerance = 1e-6});
         CHECK(motion.final_time() == end - left);
         for (const ContactEvent& event : motion.contacts) CHECK(event.time <= end - left);
@@ -228,7 +228,7 @@ TEST_CASE("contact: a run that ends during the last bounces does not report the 
 TEST_CASE("contact: a thousand impacts without loss keep height and rhythm to what rounding of the time allows") {
     Ball ball{.e = 1};
     const double first = std::sqrt(2 / g), epsilon = 2.2e-16;
-    const PhasedMotion motion =
+    const HybridMotion motion =
         follow(ball.contacts(), ball.mode_of(), {1, 0}, {.duration = 2000 * first, .tolerance = 1e-12});
     REQUIRE(motion.contacts.size() == 1000);
     for (std::size_t k = 0; k < 1000; ++k) {
@@ -258,7 +258,7 @@ TEST_CASE("contact: a resting contact opens when its reaction vanishes, and roun
                                                  .contacts = {MatrixXd::Ones(1, 1), VectorXd::Constant(1, y[0]),
                                                               VectorXd::Zero(1), VectorXd::Zero(1)}};
                             }};
-    const PhasedMotion motion = follow(
+    const HybridMotion motion = follow(
         contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes[closed.size()]; },
         {0.5, 0}, {.duration = 6, .tolerance = 1e-12});
     REQUIRE(motion.contacts.size() == 3);  // y = 1/2 − 3 t²/2 + t³/6 = 0

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "alembert/hybrid/impact.hpp"
+#include "alembert/hybrid/frictionless_impact.hpp"
 
 namespace runtime_impact {
 
@@ -37,7 +37,7 @@ MatrixXd none(Eigen::Index n) {
 }
 
 /// Contacts alone, one restitution.
-ImpactResult bounce(const MatrixXd& M, const VectorXd& before, const MatrixXd& G, double e) {
+FrictionlessImpact bounce(const MatrixXd& M, const VectorXd& before, const MatrixXd& G, double e) {
     return strike(M, before, zeros(before.size()), {none(before.size()), zeros(0)}, {G, zeros(G.rows())},
                   VectorXd::Constant(G.rows(), e));
 }
@@ -54,14 +54,14 @@ bool near(const VectorXd& a, const VectorXd& b, double tolerance = 1e-13) {
 
 TEST_CASE("impact: a ball leaves the floor with e times the speed, and the floor gives (1 + e) m v") {
     for (const double e : {0.0, 0.25, 1.0}) {
-        const ImpactResult hit = bounce(rows({{2}}), vector({-3}), rows({{1}}), e);
+        const FrictionlessImpact hit = bounce(rows({{2}}), vector({-3}), rows({{1}}), e);
         REQUIRE(hit);
         CHECK(near(hit.after, vector({3 * e})));
         CHECK(near(hit.contact, vector({2 * 3 * (1 + e)})));
         CHECK(hit.stays_closed[0] == (e == 0));
         CHECK(hit.collisions == 1);
     }
-    const ImpactResult opening = bounce(rows({{2}}), vector({3}), rows({{1}}), 0.5);
+    const FrictionlessImpact opening = bounce(rows({{2}}), vector({3}), rows({{1}}), 0.5);
     CHECK(near(opening.after, vector({3})));
     CHECK(opening.contact[0] == 0);
     CHECK_FALSE(opening.stays_closed[0]);
@@ -69,20 +69,20 @@ TEST_CASE("impact: a ball leaves the floor with e times the speed, and the floor
 
 // A moving floor: the speed is relative to it. Floor upwards at 2: gap' = v − 2.
 TEST_CASE("impact: restitution is of the relative speed") {
-    const ImpactResult hit = strike(rows({{1}}), vector({-3}), zeros(1), {none(1), zeros(0)},
-                                    {rows({{1}}), vector({-2})}, vector({0.5}));
+    const FrictionlessImpact hit = strike(rows({{1}}), vector({-3}), zeros(1), {none(1), zeros(0)},
+                                          {rows({{1}}), vector({-2})}, vector({0.5}));
     CHECK(near(hit.after, vector({2 + 0.5 * 5})));
 }
 
 TEST_CASE("impact: two equal elastic balls exchange their velocities") {
-    const ImpactResult hit = bounce(MatrixXd::Identity(2, 2), vector({1, 0}), rows({{-1, 1}}), 1);
+    const FrictionlessImpact hit = bounce(MatrixXd::Identity(2, 2), vector({1, 0}), rows({{-1, 1}}), 1);
     CHECK(near(hit.after, vector({0, 1})));
 }
 
 // Three balls that touch: γ⁺ = (1, 0) from x' = (1, 0, 0) and equal masses give (−1, 2, 2)/3 (Glocker, ch. 7):
 // Newton's law at all contacts at once differs from successive collisions.
 TEST_CASE("impact: three touching balls share the impulse according to the law") {
-    const ImpactResult hit =
+    const FrictionlessImpact hit =
         bounce(MatrixXd::Identity(3, 3), vector({1, 0, 0}), rows({{-1, 1, 0}, {0, -1, 1}}), 1);
     CHECK(near(hit.after, vector({-1. / 3, 2. / 3, 2. / 3})));
 }
@@ -90,7 +90,7 @@ TEST_CASE("impact: three touching balls share the impulse according to the law")
 // Coordinates y, θ of the centre of a rod of length 2, supports at both ends: gaps y ∓ θ.
 TEST_CASE("impact: a rod dropped flat on two supports stays level and each takes half") {
     for (const double e : {0.0, 0.6}) {
-        const ImpactResult hit = bounce(rows({{3, 0}, {0, 1}}), vector({-2, 0}), rows({{1, -1}, {1, 1}}), e);
+        const FrictionlessImpact hit = bounce(rows({{3, 0}, {0, 1}}), vector({-2, 0}), rows({{1, -1}, {1, 1}}), e);
         CHECK(near(hit.after, vector({2 * e, 0})));
         CHECK(near(hit.contact, vector({3 * (1 + e), 3 * (1 + e)})));
     }
@@ -98,7 +98,7 @@ TEST_CASE("impact: a rod dropped flat on two supports stays level and each takes
 
 TEST_CASE("impact: a table dropped flat on four legs is not singular, and each leg takes a quarter") {
     const MatrixXd M = vector({8, 1, 1}).asDiagonal();
-    const ImpactResult hit =
+    const FrictionlessImpact hit =
         bounce(M, vector({-1, 0, 0}), rows({{1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {1, -1, -1}}), 0);
     REQUIRE(hit);
     CHECK(near(hit.after, zeros(3)));
@@ -109,7 +109,7 @@ TEST_CASE("impact: a table dropped flat on four legs is not singular, and each l
 TEST_CASE("impact: a slanting rod is turned by the table as in closed form") {
     const double m = 2, l = 0.8, theta = 0.6, v = 1.5, e = 0.4;
     const MatrixXd M = vector({m, m * l * l / 12}).asDiagonal();
-    const ImpactResult hit = bounce(M, vector({-v, 0}), rows({{1, -l / 2 * std::cos(theta)}}), e);
+    const FrictionlessImpact hit = bounce(M, vector({-v, 0}), rows({{1, -l / 2 * std::cos(theta)}}), e);
     const double P = (1 + e) * m * v / (1 + 3 * std::cos(theta) * std::cos(theta));
     CHECK(near(hit.contact, vector({P})));
     CHECK(near(hit.after, vector({-v + P / m, -6 * P * std::cos(theta) / (m * l)})));
@@ -117,7 +117,7 @@ TEST_CASE("impact: a slanting rod is turned by the table as in closed form") {
 
 TEST_CASE("impact: in a right-angled corner each wall acts alone") {
     const MatrixXd M = MatrixXd::Identity(2, 2);
-    const ImpactResult hit =
+    const FrictionlessImpact hit =
         strike(M, vector({-1, -2}), zeros(2), {none(2), zeros(0)}, {M, zeros(2)}, vector({0.5, 0.25}));
     CHECK(near(hit.after, vector({0.5, 0.5})));
 }
@@ -130,7 +130,7 @@ TEST_CASE("impact: in a sharp wedge an elastic ball keeps its speed and leaves b
         const double alpha = 0.05 + 0.7 * std::abs(any(random));
         const MatrixXd G = rows({{0, 1}, {std::sin(alpha), -std::cos(alpha)}});
         const VectorXd before = vector({-1, 0.8 * any(random) * alpha});
-        const ImpactResult hit = bounce(MatrixXd::Identity(2, 2), before, G, 1);
+        const FrictionlessImpact hit = bounce(MatrixXd::Identity(2, 2), before, G, 1);
         INFO(alpha << " " << before.transpose());
         REQUIRE(hit);
         CHECK(std::abs(hit.after.norm() - before.norm()) < 1e-10);
@@ -141,16 +141,16 @@ TEST_CASE("impact: in a sharp wedge an elastic ball keeps its speed and leaves b
     // walls' own.
     for (const double phi : {3.3, 3.5, 3.8}) {
         const double alpha = std::numbers::pi / 4;
-        const ImpactResult hit = bounce(MatrixXd::Identity(2, 2), vector({std::cos(phi), std::sin(phi)}),
-                                        rows({{0, 1}, {std::sin(alpha), -std::cos(alpha)}}), 1);
+        const FrictionlessImpact hit = bounce(MatrixXd::Identity(2, 2), vector({std::cos(phi), std::sin(phi)}),
+                                              rows({{0, 1}, {std::sin(alpha), -std::cos(alpha)}}), 1);
         CHECK(near(hit.after, vector({-std::cos(phi), -std::sin(phi)}), 1e-12));
     }
 }
 
 // The body leaves at 1, is struck back at once to −2 and bounces to 1; the impulse did ½(−3)(−2 + 1).
 TEST_CASE("impact: an opening contact that is pressed back has a collision of its own") {
-    const ImpactResult hit = strike(rows({{1}}), vector({1}), vector({-3}), {none(1), zeros(0)},
-                                    {rows({{1}}), zeros(1)}, vector({0.5}));
+    const FrictionlessImpact hit = strike(rows({{1}}), vector({1}), vector({-3}), {none(1), zeros(0)},
+                                          {rows({{1}}), zeros(1)}, vector({0.5}));
     CHECK(near(hit.after, vector({1})));
     CHECK(near(hit.contact, vector({3})));
     CHECK(hit.collisions == 2);
@@ -162,7 +162,7 @@ TEST_CASE(
     "impact: two shafts coupled at once share their angular momentum, and the lost velocities' energy is lost") {
     const MatrixXd M = vector({2, 3}).asDiagonal();
     const VectorXd before = vector({5, -1});
-    const ImpactResult hit =
+    const FrictionlessImpact hit =
         strike(M, before, zeros(2), {rows({{1, -1}}), zeros(1)}, {none(2), zeros(0)}, zeros(0));
     CHECK(near(hit.after, VectorXd::Constant(2, 7.0 / 5)));
     CHECK(near(hit.bilateral, vector({2 * (7.0 / 5 - 5)})));
@@ -174,21 +174,23 @@ TEST_CASE(
     "impact: a blow on a held ball is borne by what holds it; on a resting one by the floor, if it presses") {
     const VectorXd at_rest = zeros(1);
     const MatrixXd M = rows({{2}}), row = rows({{1}});
-    const ImpactResult held = strike(M, at_rest, vector({4}), {row, zeros(1)}, {none(1), zeros(0)}, zeros(0));
+    const FrictionlessImpact held =
+        strike(M, at_rest, vector({4}), {row, zeros(1)}, {none(1), zeros(0)}, zeros(0));
     CHECK(near(held.after, at_rest));
     CHECK(near(held.bilateral, vector({-4})));
-    const ImpactResult pressed =
+    const FrictionlessImpact pressed =
         strike(M, at_rest, vector({-4}), {none(1), zeros(0)}, {row, zeros(1)}, vector({1}));
     CHECK(near(pressed.after, at_rest));
     CHECK(near(pressed.contact, vector({4})));
-    const ImpactResult lifted = strike(M, at_rest, vector({4}), {none(1), zeros(0)}, {row, zeros(1)}, vector({1}));
+    const FrictionlessImpact lifted =
+        strike(M, at_rest, vector({4}), {none(1), zeros(0)}, {row, zeros(1)}, vector({1}));
     CHECK(near(lifted.after, vector({2})));
     CHECK(lifted.contact[0] == 0);
 }
 
 TEST_CASE("impact: a coordinate without mass goes with the constraint that holds it") {
     const MatrixXd M = vector({2, 0}).asDiagonal();
-    const ImpactResult hit =
+    const FrictionlessImpact hit =
         strike(M, vector({0, 0}), vector({1, 3}), {rows({{1, -1}}), zeros(1)}, {none(2), zeros(0)}, zeros(0));
     REQUIRE(hit);
     CHECK(near(hit.after, vector({2, 2})));
@@ -233,7 +235,7 @@ TEST_CASE("impact: random systems obey the law, and the balance of energy closes
         if (k > 1 && i % 5 == 0) G.row(0) = 0.5 * G.row(1);
         const VectorXd before = matrix(n, 1), impulse = i % 2 == 0 ? zeros(n) : VectorXd(matrix(n, 1));
         const VectorXd e = i % 4 == 0 ? zeros(k) : VectorXd(matrix(k, 1).cwiseAbs().cwiseMin(1));
-        const ImpactResult hit = strike(M, before, impulse, {A, zeros(m)}, {G, zeros(k)}, e);
+        const FrictionlessImpact hit = strike(M, before, impulse, {A, zeros(m)}, {G, zeros(k)}, e);
         INFO("seed " << seed << " case " << i << ": " << hit.failure);
         REQUIRE(hit);
         const double size = M.norm() * (before.norm() + hit.after.norm()) + A.norm() + G.norm() + impulse.norm();

@@ -360,21 +360,21 @@ TEST_CASE("quick times: steps that know of a narrow pulse do not miss it, and ar
                                 Method::bdf, Method::radau}) {
         INFO(name(method));
         Options options{.method = method, .duration = 20, .tolerance = 1e-12};
-        options.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = w, .step = w}};
-        const Trajectory motion = integrate(rhs, {0, 0}, options);
+        System system{.rhs = rhs, .quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = w, .step = w}}};
+        const Trajectory motion = integrate(system, {0, 0}, options);
         REQUIRE_FALSE(motion.failure);
         CHECK(std::abs(motion.final_state()[0] - exact) < 1e-8);
-        options.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = 0, .step = w}};
+        system.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = 0, .step = w}};
         bool lands = false;
         options.on_step = [&](double t, std::span<const double>, std::span<const double>) {
             lands = lands || std::abs(t - (5 - 4 * w)) < 1e-14;
         };
-        integrate(rhs, {0, 0}, options);
+        integrate(system, {0, 0}, options);
         CHECK(lands);
     }
     CHECK(latest_end({}, 3) == HUGE_VAL);
-    const std::vector<QuickTime> quick{{.from = 1, .to = 2, .enter = 3, .step = 3},
-                                       {.from = 2, .to = 2.5, .enter = 0.1, .step = 0.2}};
+    const std::vector<InputTimeScale> quick{{.from = 1, .to = 2, .enter = 3, .step = 3},
+                                            {.from = 2, .to = 2.5, .enter = 0.1, .step = 0.2}};
     CHECK(latest_end(quick, 0) == 2.1);
     CHECK(latest_end(quick, 1.5) == 2.1);
     CHECK(latest_end(quick, 2) == 2.2);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/integrate.hpp"
 
 namespace runtime_limits {
@@ -29,16 +29,16 @@ std::vector<Hard> hard_cases() {
     const auto add = [&](const std::string& name, std::vector<double> initial, auto f, bool separable = false) {
         Rhs rhs = make_rhs(static_cast<int>(initial.size()), f);
         if (separable)  // M = 1, p = v, F = a
-            rhs.canonical =
-                std::make_shared<const Canonical>(Canonical{.coordinates = 1,
-                                                            .constraints = 0,
-                                                            .form =
-                                                                [f](double t, const double* y, double* out) {
-                                                                    double rate[2];
-                                                                    f(t, y, rate);
-                                                                    out[0] = 1, out[1] = y[1], out[2] = rate[1];
-                                                                },
-                                                            .held = {}});
+            rhs.canonical = std::make_shared<const HamiltonianSystem>(
+                HamiltonianSystem{.coordinates = 1,
+                                  .constraints = 0,
+                                  .form =
+                                      [f](double t, const double* y, double* out) {
+                                          double rate[2];
+                                          f(t, y, rate);
+                                          out[0] = 1, out[1] = y[1], out[2] = rate[1];
+                                      },
+                                  .held = {}});
         list.push_back({name, separable, std::move(rhs), std::move(initial)});
     };
     add("stiff decay", {1, 0},

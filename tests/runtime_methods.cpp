@@ -119,7 +119,7 @@ void check_trees(const Table& table, std::vector<int> exact_for_error_row) {
 template <const auto& tableau>
 double logistic_error(double duration, int steps) {
     const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
-    Step<tableau> step(rhs, 0, std::vector<double>{0.1});
+    ExplicitRK<tableau> step(rhs, 0, std::vector<double>{0.1});
     for (int i = 1; i <= steps; ++i) {
         step.attempt(duration * i / steps);
         step.finish();
@@ -132,7 +132,7 @@ double logistic_error(double duration, int steps) {
 template <const auto& tableau>
 double dense_error(double h) {
     const Rhs rhs = pendulum();
-    Step<tableau> step(rhs, 0, pendulum_start);
+    ExplicitRK<tableau> step(rhs, 0, pendulum_start);
     step.attempt(h);
     step.finish();
     double worst = 0;
@@ -163,14 +163,15 @@ double observed_dense_order(double h) {
 }
 
 /// A stepper that never gets to the next step.
-struct Standing : Step<rk4_tableau> {
-    using Step<rk4_tableau>::Step;
+struct Standing : ExplicitRK<rk4_tableau> {
+    using ExplicitRK<rk4_tableau>::ExplicitRK;
     void advance() = delete;
 };
-static_assert(SomeStepper<Step<rk4_tableau>> && !SomeStepper<Standing>);
-static_assert(!KnowsSeries<Step<dop853_tableau>> && !ChoosesLength<Step<dop853_tableau>>);
-static_assert(SomeStepper<Stepper<Abm>> && !SomeStepper<Abm> && StepFormula<Abm> && !KnowsSeries<Stepper<Abm>>);
-static_assert(ChoosesLength<Stepper<Abm>> && MovesOn<Abm> && !FindsEndRate<Abm> && !KeepsConstraints<Abm>);
+static_assert(SomeStepper<ExplicitRK<rk4_tableau>> && !SomeStepper<Standing>);
+static_assert(!KnowsSeries<ExplicitRK<dop853_tableau>> && !ChoosesLength<ExplicitRK<dop853_tableau>>);
+static_assert(SomeStepper<FormulaStepper<Abm>> && !SomeStepper<Abm> && StepFormula<Abm> &&
+              !KnowsSeries<FormulaStepper<Abm>>);
+static_assert(ChoosesLength<FormulaStepper<Abm>> && MovesOn<Abm> && !FindsEndRate<Abm> && !KeepsConstraints<Abm>);
 
 }  // namespace
 
@@ -222,7 +223,7 @@ TEST_CASE("dense output: the error within a step falls with the order of the con
 
 TEST_CASE("dense output: the ends of a step are met exactly and its stages are evaluated once") {
     const Rhs rhs = pendulum();
-    Step<dop853_tableau> step(rhs, 0, pendulum_start);
+    ExplicitRK<dop853_tableau> step(rhs, 0, pendulum_start);
     step.attempt(0.3);
     step.finish();
     const long before = step.evaluations();
@@ -344,22 +345,18 @@ TEST_CASE("state: a projection that moves nothing costs no evaluation and change
     for (const Method method :
          {Method::rk4, Method::dopri5, Method::dop853, Method::verner98, Method::abm, Method::radau5}) {
         CAPTURE(name(method));
-        Options options{.method = method,
-                        .duration = 10,
-                        .tolerance = 1e-10,
-                        .step = has_fixed_step(method) ? 0.01 : 0,
-                        .sample = 0.5};
+        const Options options{.method = method,
+                              .duration = 10,
+                              .tolerance = 1e-10,
+                              .step = has_fixed_step(method) ? 0.01 : 0,
+                              .sample = 0.5};
         const Trajectory without = integrate(kepler(), kepler_start, options);
         int asked = 0;
         const auto project = [&](double, double*) { ++asked; };
         const Trajectory with = integrate(System{.rhs = kepler(), .project = project}, kepler_start, options);
         CHECK(with.states == without.states);
         CHECK(with.statistics.evaluations == without.statistics.evaluations);
-        const int before = std::exchange(asked, 0);
-        CHECK(before > 10);
-        options.project = project;  // as in version 0.1
-        CHECK(integrate(kepler(), kepler_start, options).states == without.states);
-        CHECK(asked == before);
+        CHECK(asked > 10);
     }
 }
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "alembert/ode/formula.hpp"
+#include "alembert/ode/formula_stepper.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/nystrom.hpp"
 #include "runtime_systems.hpp"
@@ -106,7 +106,7 @@ template <const auto& tableau>
 double error_after_turn(int steps) {
     const double turn = 2 * std::numbers::pi;
     const Rhs rhs = kepler();
-    Stepper<Nystrom<tableau>> step(rhs, 0, kepler_start, 1e-9);
+    FormulaStepper<Nystrom<tableau>> step(rhs, 0, kepler_start, 1e-9);
     for (int i = 1; i <= steps; ++i) {
         step.attempt(turn * i / steps);
         REQUIRE(step.finish());
@@ -127,9 +127,9 @@ double observed_order(int steps, int more) {
 template <const auto& tableau>
 std::pair<double, double> errors_within(double h) {
     const Rhs rhs = kepler();
-    Stepper<Nystrom<tableau>> step(rhs, 0, kepler_start, 1e-9);
+    FormulaStepper<Nystrom<tableau>> step(rhs, 0, kepler_start, 1e-9);
     step.attempt(h);
-    const double estimated = step.misfit();
+    const double estimated = step.error_norm();
     REQUIRE(step.finish());
     const auto exact = [&](double t) {
         const Trajectory motion = integrate(
@@ -186,7 +186,7 @@ TEST_CASE("nystrom: states within a step are about as exact as is estimated, and
         CHECK(within12 < 2 * estimated12);
     }
     const Rhs rhs = kepler();
-    Stepper<Nystrom<rkn1210_tableau>> step(rhs, 0, kepler_start, 1e-9);
+    FormulaStepper<Nystrom<rkn1210_tableau>> step(rhs, 0, kepler_start, 1e-9);
     step.attempt(0.3);
     REQUIRE(step.finish());
     const long before = step.evaluations();

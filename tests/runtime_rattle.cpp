@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/integrate.hpp"
 
 namespace runtime_rattle {
@@ -46,26 +46,26 @@ struct Bead {
             rate[0] = y[2], rate[1] = y[3], rate[3] = motion[1];
             rate[2] = -c * (std::cos(y[1]) * y[3] * y[3] + std::sin(y[1]) * motion[1]);
         });
-        rhs.canonical = std::make_shared<const Canonical>(
-            Canonical{.coordinates = 2,
-                      .constraints = 1,
-                      .form =
-                          [](double, const double* y, double* out) {
-                              const double list[] = {1,
-                                                     0,
-                                                     y[0] * y[0],
-                                                     y[2],
-                                                     y[0] * y[0] * y[3],
-                                                     y[0] * y[3] * y[3] + g * std::cos(y[1]),
-                                                     -g * y[0] * std::sin(y[1])};
-                              std::copy(std::begin(list), std::end(list), out);
-                          },
-                      .held =
-                          [*this](double, const double* y, double* position, double* velocity, double* rows) {
-                              position[0] = y[0] - r(y[1]);
-                              rows[0] = 1, rows[1] = -slope(y[1]);
-                              velocity[0] = y[2] + rows[1] * y[3];
-                          }});
+        rhs.canonical = std::make_shared<const HamiltonianSystem>(HamiltonianSystem{
+            .coordinates = 2,
+            .constraints = 1,
+            .form =
+                [](double, const double* y, double* out) {
+                    const double list[] = {1,
+                                           0,
+                                           y[0] * y[0],
+                                           y[2],
+                                           y[0] * y[0] * y[3],
+                                           y[0] * y[3] * y[3] + g * std::cos(y[1]),
+                                           -g * y[0] * std::sin(y[1])};
+                    std::copy(std::begin(list), std::end(list), out);
+                },
+            .held =
+                [*this](double, const double* y, double* position, double* velocity, double* rows) {
+                    position[0] = y[0] - r(y[1]);
+                    rows[0] = 1, rows[1] = -slope(y[1]);
+                    velocity[0] = y[2] + rows[1] * y[3];
+                }});
         return rhs;
     }
 
@@ -93,8 +93,8 @@ Rhs double_pendulum() {
         rate[0] = y[2], rate[1] = y[3];
         rate[2] = (f - c * h) / (2 - c * c), rate[3] = (2 * h - c * f) / (2 - c * c);
     });
-    rhs.canonical =
-        std::make_shared<const Canonical>(Canonical{.coordinates = 2, .constraints = 0, .form = form, .held = {}});
+    rhs.canonical = std::make_shared<const HamiltonianSystem>(
+        HamiltonianSystem{.coordinates = 2, .constraints = 0, .form = form, .held = {}});
     return rhs;
 }
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "alembert/hybrid/contact_modes.hpp"
+#include "alembert/hybrid/friction_modes.hpp"
 #include "solved.hpp"
 
 namespace runtime_rough_choices {
@@ -27,12 +27,12 @@ using Eigen::VectorXd;
 TEST_CASE("rough choices: what rests slides only where its static coefficient does not hold it") {
     const Eigen::MatrixXd none(0, 2);
     for (const double pull : {0.3, 0.7, 0.9, 1.1, 1.5}) {
-        const std::vector<RoughRows> floor{{.normal = Eigen::RowVector2d(0, 1),
-                                            .slip = Eigen::RowVector2d(1, 0),
-                                            .coefficient = 0.5,
-                                            .resting = 1}};
-        const RoughChoices all = every_rough_choice(2 * Eigen::Matrix2d::Identity(), Eigen::Vector2d(pull, -1),
-                                                    none, Eigen::VectorXd(), floor);
+        const std::vector<FrictionRows> floor{{.normal = Eigen::RowVector2d(0, 1),
+                                               .tangent = Eigen::RowVector2d(1, 0),
+                                               .coefficient = 0.5,
+                                               .resting = 1}};
+        const FrictionModes all = consistent_friction_modes(
+            2 * Eigen::Matrix2d::Identity(), Eigen::Vector2d(pull, -1), none, Eigen::VectorXd(), floor);
         CAPTURE(pull);
         CHECK(all.is_complete);
         REQUIRE(all.different.size() == 1);
@@ -45,15 +45,15 @@ TEST_CASE("rough choices: what rests slides only where its static coefficient do
 TEST_CASE("rough choices: feet of which each sticks at its static bound hold what one alone would not") {
     const double mu = 0.5, resting = 1, b = 1, h = 0.1;
     for (const double slope : {0.4, 0.6, 0.74, 0.76, 0.9, 0.99, 1.01, 1.2}) {
-        std::vector<RoughRows> feet;
+        std::vector<FrictionRows> feet;
         for (const double x : {-b, b})
             feet.push_back({.normal = Eigen::RowVector3d(0, 1, x),
-                            .slip = Eigen::RowVector3d(1, 0, h),
+                            .tangent = Eigen::RowVector3d(1, 0, h),
                             .coefficient = mu,
                             .resting = resting});
-        const RoughChoices all =
-            every_rough_choice(MatrixXd(Eigen::Vector3d(1, 1, 2).asDiagonal()), Eigen::Vector3d(slope, -1, 0),
-                               MatrixXd(0, 3), VectorXd(), feet);
+        const FrictionModes all =
+            consistent_friction_modes(MatrixXd(Eigen::Vector3d(1, 1, 2).asDiagonal()),
+                                      Eigen::Vector3d(slope, -1, 0), MatrixXd(0, 3), VectorXd(), feet);
         CAPTURE(slope);
         REQUIRE(all.different.size() == 1);
         CHECK(all.different[0].after[0] == doctest::Approx(slope > resting ? slope - mu : 0).epsilon(1e-14));
@@ -65,7 +65,7 @@ namespace {
 
 struct Weighed {
     VectorXd after;
-    std::array<int, 2> slip;  ///< the sign of η, 0 where the contact sticks
+    std::array<int, 2> sliding;  ///< the sign of η, 0 where the contact sticks
     std::array<bool, 2> closed;
     bool clear;  ///< no inequality is nearly an equation
 };
@@ -73,7 +73,7 @@ struct Weighed {
 /// All consistent choices of two contacts by Gaussian elimination of the whole system, each with its conditions;
 /// nothing if one has no unique solution.
 std::optional<std::vector<Weighed>> weighed(const MatrixXd& M, const VectorXd& f,
-                                            const std::vector<RoughRows>& contacts) {
+                                            const std::vector<FrictionRows>& contacts) {
     const Index n = f.size();
     std::vector<Weighed> result;
     for (int code = 0; code < 16; ++code) {
@@ -83,17 +83,17 @@ std::optional<std::vector<Weighed>> weighed(const MatrixXd& M, const VectorXd& f
         K.topLeftCorner(n, n) = M;
         right.head(n) = f;
         for (std::size_t i = 0; i < 2; ++i) {
-            const RoughRows& c = contacts[i];
+            const FrictionRows& c = contacts[i];
             const Index row = n + 2 * static_cast<Index>(i);
             K.col(row).head(n) = -c.normal.transpose();
-            K.col(row + 1).head(n) = -c.slip.transpose();
+            K.col(row + 1).head(n) = -c.tangent.transpose();
             if (modes[i] == 3) {
                 K(row, row) = K(row + 1, row + 1) = 1;
                 continue;
             }
             K.row(row).head(n) = c.normal;
             if (modes[i] == 0) {
-                K.row(row + 1).head(n) = c.slip;
+                K.row(row + 1).head(n) = c.tangent;
             } else {
                 K(row + 1, row + 1) = 1;
                 K(row + 1, row) = modes[i] == 1 ? c.coefficient : -c.coefficient;
@@ -102,14 +102,14 @@ std::optional<std::vector<Weighed>> weighed(const MatrixXd& M, const VectorXd& f
         const std::optional<MatrixXd> solution = test::solved(K, right);
         if (!solution) return std::nullopt;
         const VectorXd x = *solution;
-        Weighed one{.after = x.head(n), .slip = {0, 0}, .closed = {false, false}, .clear = true};
+        Weighed one{.after = x.head(n), .sliding = {0, 0}, .closed = {false, false}, .clear = true};
         bool holds = true;
         const auto need = [&](double value) {
             holds = holds && value > 0;
             one.clear = one.clear && std::abs(value) > 1e-6;
         };
         for (std::size_t i = 0; i < 2; ++i) {
-            const RoughRows& c = contacts[i];
+            const FrictionRows& c = contacts[i];
             const double pi = x[n + 2 * static_cast<Index>(i)], tau = x[n + 2 * static_cast<Index>(i) + 1];
             if (modes[i] == 3) {
                 need(c.normal.dot(one.after));
@@ -121,8 +121,8 @@ std::optional<std::vector<Weighed>> weighed(const MatrixXd& M, const VectorXd& f
                 need(c.resting * pi - std::abs(tau));
                 continue;
             }
-            one.slip[i] = modes[i] == 1 ? 1 : -1;
-            need(one.slip[i] * c.slip.dot(one.after));
+            one.sliding[i] = modes[i] == 1 ? 1 : -1;
+            need(one.sliding[i] * c.tangent.dot(one.after));
         }
         if (!one.clear) return std::nullopt;
         if (holds) result.push_back(one);
@@ -168,13 +168,15 @@ TEST_CASE("rough choices: a choice is given up only for one that is consistent a
          {0.2, 0.8, 0.3, 0.7},
          VectorXd{{6382.0 / 134867, 20479.0 / 134867, 15430.0 / 404601, -50006.0 / 404601}}}};
     for (const Case& one : cases) {
-        const std::vector<RoughRows> rows{
-            {.normal = one.g0, .slip = one.w0, .coefficient = one.coefficients[0], .resting = one.coefficients[1]},
-            {.normal = one.g1,
-             .slip = one.w1,
-             .coefficient = one.coefficients[2],
-             .resting = one.coefficients[3]}};
-        const RoughChoices all = every_rough_choice(one.M, one.f, MatrixXd(0, 4), VectorXd(), rows);
+        const std::vector<FrictionRows> rows{{.normal = one.g0,
+                                              .tangent = one.w0,
+                                              .coefficient = one.coefficients[0],
+                                              .resting = one.coefficients[1]},
+                                             {.normal = one.g1,
+                                              .tangent = one.w1,
+                                              .coefficient = one.coefficients[2],
+                                              .resting = one.coefficients[3]}};
+        const FrictionModes all = consistent_friction_modes(one.M, one.f, MatrixXd(0, 4), VectorXd(), rows);
         REQUIRE(all.different.size() == 1);
         CHECK((all.different[0].after - one.after).norm() < 1e-13);
     }
@@ -192,11 +194,11 @@ TEST_CASE("rough choices: with static coefficients the choices are those that no
         const MatrixXd M = L * L.transpose();
         VectorXd f(4);
         for (double& x : f) x = load(random);
-        std::vector<RoughRows> rows;
+        std::vector<FrictionRows> rows;
         for (int i = 0; i < 2; ++i) {
-            RoughRows row{.normal = RowVectorXd(4), .slip = RowVectorXd(4)};
+            FrictionRows row{.normal = RowVectorXd(4), .tangent = RowVectorXd(4)};
             for (double& x : row.normal) x = entry(random);
-            for (double& x : row.slip) x = entry(random);
+            for (double& x : row.tangent) x = entry(random);
             row.coefficient = 0.3 * tenth(random);
             row.resting = row.coefficient + 0.1 * tenth(random);
             rows.push_back(row);
@@ -208,22 +210,22 @@ TEST_CASE("rough choices: with static coefficients the choices are those that no
             const bool beaten = std::any_of(consistent->begin(), consistent->end(), [&](const Weighed& other) {
                 bool more = false;
                 for (std::size_t i = 0; i < 2; ++i) {
-                    const bool sticks = one.closed[i] && one.slip[i] == 0,
-                               would = other.closed[i] && other.slip[i] == 0;
+                    const bool sticks = one.closed[i] && one.sliding[i] == 0,
+                               would = other.closed[i] && other.sliding[i] == 0;
                     if (sticks && !would) return false;
-                    more = more || (one.slip[i] != 0 && would);
+                    more = more || (one.sliding[i] != 0 && would);
                 }
                 return more;
             });
             if (!beaten) kept.push_back(one.after);
         }
-        const RoughChoices all = every_rough_choice(M, f, MatrixXd(0, 4), VectorXd(), rows);
+        const FrictionModes all = consistent_friction_modes(M, f, MatrixXd(0, 4), VectorXd(), rows);
         CAPTURE(trial);
         ++judged;
         ++counts[kept.size()];
         REQUIRE(all.different.size() == kept.size());
         for (const VectorXd& after : kept)
-            CHECK(std::any_of(all.different.begin(), all.different.end(), [&](const RoughChoice& one) {
+            CHECK(std::any_of(all.different.begin(), all.different.end(), [&](const FrictionMode& one) {
                 return (one.after - after).norm() < 1e-9 * (1 + after.norm());
             }));
     }

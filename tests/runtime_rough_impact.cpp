@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Impacts with dry friction against closed forms and against the laws that they have to obey.
-#include "alembert/hybrid/impact_routh.hpp"
+#include "alembert/hybrid/routh_impact.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,9 +23,9 @@ const MatrixXd no_rows(0, 3);
 /// A sphere of mass 1 and radius 1 over the floor: x, y, phi.
 RoughContact sphere(double mu) {
     return {.normal = RowVectorXd{{0, 1, 0}},
-            .slip = RowVectorXd{{1, 0, -1}},
-            .normal_drift = 0,
-            .slip_drift = 0,
+            .tangent = RowVectorXd{{1, 0, -1}},
+            .normal_offset = 0,
+            .tangent_offset = 0,
             .coefficient = mu,
             .resting = mu};
 }
@@ -39,13 +39,13 @@ double energy(const MatrixXd& M, const VectorXd& u) {
 TEST_CASE("rough impact: a sphere slides through the impact, or grips and keeps 5/7 of its sliding") {
     const MatrixXd M = VectorXd{{1, 1, 0.4}}.asDiagonal();
     const VectorXd before{{5, -2, 0}};
-    const RoughImpact slides = strike_rough(M, before, no_rows, sphere(0.2), 0.5);
+    const RouthImpact slides = strike_rough(M, before, no_rows, sphere(0.2), 0.5);
     REQUIRE(slides);
     CHECK(slides.after[0] == doctest::Approx(5 - 0.2 * 3).epsilon(1e-14));
     CHECK(slides.after[1] == doctest::Approx(1).epsilon(1e-14));
     CHECK(slides.impulse == doctest::Approx(3).epsilon(1e-14));
     CHECK(slides.tangential == doctest::Approx(-0.6).epsilon(1e-14));
-    const RoughImpact grips = strike_rough(M, before, no_rows, sphere(0.9), 0.5);
+    const RouthImpact grips = strike_rough(M, before, no_rows, sphere(0.9), 0.5);
     REQUIRE(grips);
     CHECK(grips.after[0] == doctest::Approx(5 - 2.0 / 7 * 5).epsilon(1e-14));
     CHECK(grips.after[0] == doctest::Approx(grips.after[2]).epsilon(1e-14));
@@ -60,9 +60,9 @@ TEST_CASE("rough impact: a rod that strikes with its end slides back within the 
     MatrixXd M(3, 3);
     M << 1, 0, -s, 0, 1, c, -s, c, 1 + 1.0 / 3;
     const RoughContact end{.normal = RowVectorXd{{0, 1, 0}},
-                           .slip = RowVectorXd{{1, 0, 0}},
-                           .normal_drift = 0,
-                           .slip_drift = 0,
+                           .tangent = RowVectorXd{{1, 0, 0}},
+                           .normal_offset = 0,
+                           .tangent_offset = 0,
                            .coefficient = 0.3,
                            .resting = 0.3};
     const MatrixXd inverse = test::inverse_of(M);
@@ -70,7 +70,7 @@ TEST_CASE("rough impact: a rod that strikes with its end slides back within the 
     REQUIRE(std::abs(nt) > 0.3 * tt);              // it cannot stick
     const double v = nt > 0 ? -0.1 : 0.1, n = -1;  // against the way in which the impulse pushes
     const VectorXd before{{v, n, 0}};
-    const RoughImpact hit = strike_rough(M, before, no_rows, end, 0.5);
+    const RouthImpact hit = strike_rough(M, before, no_rows, end, 0.5);
     REQUIRE(hit);
     const double first = v > 0 ? 1 : -1;
     const double stop = -v / (nt - 0.3 * first * tt);
@@ -91,19 +91,19 @@ TEST_CASE("rough impact: momenta, Coulomb's law and the energy hold in random im
         for (int i = 0; i < 9; ++i) L(i / 3, i % 3) = number();
         const MatrixXd M = L * L.transpose() + 0.1 * MatrixXd::Identity(3, 3);
         RoughContact contact{.normal = RowVectorXd{{number(), number(), number()}},
-                             .slip = RowVectorXd{{number(), number(), number()}},
-                             .normal_drift = 0,
-                             .slip_drift = 0,
+                             .tangent = RowVectorXd{{number(), number(), number()}},
+                             .normal_offset = 0,
+                             .tangent_offset = 0,
                              .coefficient = std::abs(number()),
                              .resting = 0};
         contact.resting = contact.coefficient * (1 + std::abs(number()));
         const VectorXd before{{number(), number(), number()}};
         if (contact.normal.dot(before) >= 0) continue;
-        const RoughImpact hit = strike_rough(M, before, no_rows, contact, std::abs(number()));
+        const RouthImpact hit = strike_rough(M, before, no_rows, contact, std::abs(number()));
         REQUIRE(hit);
         ++done;
         const VectorXd momentum =
-            contact.normal.transpose() * hit.impulse + contact.slip.transpose() * hit.tangential;
+            contact.normal.transpose() * hit.impulse + contact.tangent.transpose() * hit.tangential;
         CHECK((M * (hit.after - before) - momentum).norm() <= 1e-11 * (1 + momentum.norm()));
         CHECK(std::abs(hit.tangential) <= contact.resting * hit.impulse * (1 + 1e-12));
         CHECK(contact.normal.dot(hit.after) >= -1e-11 * (1 + hit.impulse));
@@ -124,17 +124,17 @@ TEST_CASE(
         MatrixXd L(3, 3);
         for (int i = 0; i < 9; ++i) L(i / 3, i % 3) = uniform(random);
         const MatrixXd M = L * L.transpose() + 0.5 * MatrixXd::Identity(3, 3), response = test::inverse_of(M);
-        RoughContact contact{.normal = row(), .slip = row()};
+        RoughContact contact{.normal = row(), .tangent = row()};
         contact.across = row();
         contact.coefficient = std::abs(uniform(random)) + 0.01;
         contact.resting = contact.coefficient;
         const VectorXd before = row().transpose();
         if (contact.normal.dot(before) >= 0) continue;
-        const RoughImpact hit = strike_rough(M, before, no_rows, contact, 0.5);
+        const RouthImpact hit = strike_rough(M, before, no_rows, contact, 0.5);
         REQUIRE(hit);
         ++done;
         const VectorXd momentum = contact.normal.transpose() * hit.impulse +
-                                  contact.slip.transpose() * hit.tangential +
+                                  contact.tangent.transpose() * hit.tangential +
                                   contact.across.transpose() * hit.across;
         CHECK((M * (hit.after - before) - momentum).norm() <= 1e-11 * (1 + momentum.norm()));
         CHECK(std::hypot(hit.tangential, hit.across) <= contact.resting * hit.impulse * (1 + 1e-11));
@@ -145,9 +145,9 @@ TEST_CASE(
         const double step = hit.impulse / steps;
         VectorXd u = before;
         for (int n = 0; n < steps; ++n) {
-            const double v = contact.slip.dot(u), w = contact.across.dot(u), speed = std::hypot(v, w);
+            const double v = contact.tangent.dot(u), w = contact.across.dot(u), speed = std::hypot(v, w);
             const double mu = speed > 0 ? contact.coefficient / speed : 0;
-            u += step * response * (contact.normal - mu * (v * contact.slip + w * contact.across)).transpose();
+            u += step * response * (contact.normal - mu * (v * contact.tangent + w * contact.across)).transpose();
         }
         CHECK((u - hit.after).norm() < 100 * step * response.norm());
     }
@@ -159,18 +159,18 @@ TEST_CASE(
     // A solid ball of mass 1 and radius 1 with the rates x', y', phi': the lowest point has v = x' − phi'.
     MatrixXd M = MatrixXd::Identity(3, 3);
     M(2, 2) = 0.4;
-    RoughContact contact{.normal = RowVectorXd{{0, 1, 0}}, .slip = RowVectorXd{{1, 0, -1}}};
+    RoughContact contact{.normal = RowVectorXd{{0, 1, 0}}, .tangent = RowVectorXd{{1, 0, -1}}};
     contact.coefficient = contact.resting = 10;
     contact.grip = 0.5;
     const VectorXd before{{1, -2, -3}};
-    const RoughImpact whole = strike_rough(M, before, no_rows, contact, 1);
-    CHECK(contact.slip.dot(whole.after) == doctest::Approx(-2).epsilon(1e-14));
+    const RouthImpact whole = strike_rough(M, before, no_rows, contact, 1);
+    CHECK(contact.tangent.dot(whole.after) == doctest::Approx(-2).epsilon(1e-14));
     CHECK(whole.after[1] == doctest::Approx(2).epsilon(1e-14));
     CHECK(whole.loss == doctest::Approx((16 - 4) / 7.0).epsilon(1e-13));  // of the reduced mass 2/7
     contact.coefficient = contact.resting = 0.36;
-    const RoughImpact part = strike_rough(M, before, no_rows, contact, 1);
+    const RouthImpact part = strike_rough(M, before, no_rows, contact, 1);
     CHECK(std::abs(part.tangential) == doctest::Approx(0.36 * 4).epsilon(1e-14));
-    CHECK(contact.slip.dot(part.after) == doctest::Approx(4 - 3.5 * 0.36 * 4).epsilon(1e-13));
+    CHECK(contact.tangent.dot(part.after) == doctest::Approx(4 - 3.5 * 0.36 * 4).epsilon(1e-13));
 }
 
 }  // namespace runtime_rough_impact

@@ -10,9 +10,9 @@
 #include <random>
 #include <string>
 
-#include "alembert/hybrid/contact_cones.hpp"
-#include "alembert/hybrid/impact_dispatch.hpp"
-#include "alembert/hybrid/impact_routh.hpp"
+#include "alembert/hybrid/contact_cone.hpp"
+#include "alembert/hybrid/frictional_impact.hpp"
+#include "alembert/hybrid/routh_impact.hpp"
 #include "solved.hpp"
 
 namespace runtime_rough_together {
@@ -39,12 +39,12 @@ struct Plate {
         for (int i = 0; i < feet; ++i) {
             const double x = R * std::cos(2 * pi * i / feet), y = R * std::sin(2 * pi * i / feet);
             here.contacts.rows.row(i) = RowVectorXd{{0, 0, 1, y, -x, 0}};
-            MatrixXd slip(2, 6);
-            slip << 1, 0, 0, 0, -h, -y, 0, 1, 0, h, 0, x;
+            MatrixXd tangent(2, 6);
+            tangent << 1, 0, 0, 0, -h, -y, 0, 1, 0, h, 0, x;
             here.rough.push_back({.contact = i,
-                                  .slip = slip,
-                                  .drift = VectorXd::Zero(2),
-                                  .velocity = slip * u,
+                                  .tangent = tangent,
+                                  .offset = VectorXd::Zero(2),
+                                  .velocity = tangent * u,
                                   .acceleration = VectorXd::Zero(2),
                                   .coefficient = mu,
                                   .resting = mu_s,
@@ -52,7 +52,7 @@ struct Plate {
         }
         return here;
     }
-    RoughStrike struck(const VectorXd& u) const {
+    FrictionalImpact struck(const VectorXd& u) const {
         std::vector<int> near;
         for (int i = 0; i < feet; ++i) near.push_back(i);
         return strike_rough_contacts(at(u), u, near, std::vector<double>(static_cast<std::size_t>(feet), e),
@@ -61,7 +61,7 @@ struct Plate {
     static Situation::Rows rows(int count) {
         return {.rows = MatrixXd::Zero(count, 6),
                 .value = VectorXd::Zero(count),
-                .drift = VectorXd::Zero(count),
+                .offset = VectorXd::Zero(count),
                 .acceleration = VectorXd::Zero(count)};
     }
 };
@@ -71,7 +71,7 @@ double energy(const MatrixXd& M, const VectorXd& u) {
 }
 
 /// The rates agree to 1e-13 of the largest.
-void check_rates(const RoughStrike& hit, const VectorXd& expected) {
+void check_rates(const FrictionalImpact& hit, const VectorXd& expected) {
     REQUIRE_MESSAGE(hit.failure.empty(), hit.failure);
     INFO("found    " << hit.after.transpose());
     INFO("expected " << expected.transpose());
@@ -119,7 +119,7 @@ TEST_CASE("rough together: a plate that slides without spin is braked along its 
 TEST_CASE("rough together: turned and mirrored impacts have turned and mirrored results") {
     Plate plate{.h = 0.05};
     const VectorXd u{{0.9, 0.4, -1.2, 0, 0, 7}};
-    const RoughStrike hit = plate.struck(u);
+    const FrictionalImpact hit = plate.struck(u);
     REQUIRE(hit);
     const double c = std::cos(2 * pi / 3), s = std::sin(2 * pi / 3);
     const auto turned = [&](const VectorXd& x) {
@@ -151,19 +151,19 @@ TEST_CASE("rough together: contacts that do not feel each other are struck each 
         bool possible = true;
         for (int i = 0; i < 2; ++i) {
             here.contacts.rows(i, 3 * i) = 1;
-            MatrixXd slip = MatrixXd::Zero(2, 6);
-            slip(0, 3 * i + 1) = slip(1, 3 * i + 2) = 1;
+            MatrixXd tangent = MatrixXd::Zero(2, 6);
+            tangent(0, 3 * i + 1) = tangent(1, 3 * i + 2) = 1;
             here.rough.push_back({.contact = i,
-                                  .slip = slip,
-                                  .drift = VectorXd::Zero(2),
-                                  .velocity = slip * u,
+                                  .tangent = tangent,
+                                  .offset = VectorXd::Zero(2),
+                                  .velocity = tangent * u,
                                   .acceleration = VectorXd::Zero(2),
                                   .coefficient = 0.3,
                                   .resting = 0.3,
                                   .restitution = 0});
-            const RoughImpact alone = strike_rough(i == 0 ? first : second, u.segment(3 * i, 3), MatrixXd(0, 3),
+            const RouthImpact alone = strike_rough(i == 0 ? first : second, u.segment(3 * i, 3), MatrixXd(0, 3),
                                                    {.normal = RowVectorXd{{1, 0, 0}},
-                                                    .slip = RowVectorXd{{0, 1, 0}},
+                                                    .tangent = RowVectorXd{{0, 1, 0}},
                                                     .coefficient = 0.3,
                                                     .resting = 0.3,
                                                     .across = RowVectorXd{{0, 0, 1}}},
@@ -172,7 +172,7 @@ TEST_CASE("rough together: contacts that do not feel each other are struck each 
             if (alone) expected.segment(3 * i, 3) = alone.after;
             loss += alone.loss;
         }
-        const RoughStrike hit = strike_rough_contacts(here, u, {0, 1}, {0.5, 0.5}, VectorXd());
+        const FrictionalImpact hit = strike_rough_contacts(here, u, {0, 1}, {0.5, 0.5}, VectorXd());
         REQUIRE(bool(hit) == possible);
         if (!possible) continue;
         CHECK((hit.after - expected).norm() <= 1e-11 * expected.norm());  // that of the integrated impacts
@@ -183,7 +183,7 @@ TEST_CASE("rough together: contacts that do not feel each other are struck each 
 
 /// The different rates after an impact along lines, by all choices of modes of all contacts.
 std::vector<VectorXd> all_results(const MatrixXd& M, const VectorXd& momentum,
-                                  const std::vector<ConeRows>& contacts) {
+                                  const std::vector<ContactCone>& contacts) {
     const auto k = static_cast<Index>(contacts.size()), n = M.rows();
     const MatrixXd inverse = test::inverse_of(M);
     std::vector<VectorXd> results;
@@ -201,11 +201,11 @@ std::vector<VectorXd> all_results(const MatrixXd& M, const VectorXd& momentum,
             offset.tail(1)[0] = constant;
         };
         for (Index i = 0; i < k; ++i) {
-            const ConeRows& c = contacts[static_cast<std::size_t>(i)];
+            const ContactCone& c = contacts[static_cast<std::size_t>(i)];
             const double slope = mode(i) == 2 ? -c.coefficient : mode(i) == 3 ? c.coefficient : 0;
             if (mode(i) == 0) continue;
-            add((c.normal + slope * c.slip.row(0)).transpose(), c.normal, c.offset);
-            if (mode(i) == 1) add(c.slip.row(0).transpose(), c.slip.row(0), c.slip_offset[0]);
+            add((c.normal + slope * c.tangent.row(0)).transpose(), c.normal, c.offset);
+            if (mode(i) == 1) add(c.tangent.row(0).transpose(), c.tangent.row(0), c.tangent_offset[0]);
         }
         const VectorXd free = inverse * momentum;
         VectorXd p(0), after = free;
@@ -218,8 +218,9 @@ std::vector<VectorXd> all_results(const MatrixXd& M, const VectorXd& momentum,
         bool is_consistent = after.allFinite();
         Index next = 0;
         for (Index i = 0; i < k; ++i) {
-            const ConeRows& c = contacts[static_cast<std::size_t>(i)];
-            const double gap = c.normal.dot(after) + c.offset, slip = c.slip.row(0).dot(after) + c.slip_offset[0];
+            const ContactCone& c = contacts[static_cast<std::size_t>(i)];
+            const double gap = c.normal.dot(after) + c.offset,
+                         sliding = c.tangent.row(0).dot(after) + c.tangent_offset[0];
             if (mode(i) == 0) {
                 is_consistent = is_consistent && gap >= -1e-9;
                 continue;
@@ -227,8 +228,8 @@ std::vector<VectorXd> all_results(const MatrixXd& M, const VectorXd& momentum,
             const double pressed = p[next++];
             is_consistent = is_consistent && pressed >= -1e-9;
             if (mode(i) == 1) is_consistent = is_consistent && std::abs(p[next++]) <= c.resting * pressed + 1e-9;
-            if (mode(i) == 2) is_consistent = is_consistent && slip >= -1e-9;
-            if (mode(i) == 3) is_consistent = is_consistent && slip <= 1e-9;
+            if (mode(i) == 2) is_consistent = is_consistent && sliding >= -1e-9;
+            if (mode(i) == 3) is_consistent = is_consistent && sliding <= 1e-9;
         }
         if (!is_consistent) continue;
         if (std::none_of(results.begin(), results.end(),
@@ -246,31 +247,31 @@ TEST_CASE("rough together: along lines the only result is found, and each refusa
             const int n = 5, contacts = 2 + trial % 2;
             const MatrixXd M = random_mass(random, n);
             const VectorXd momentum = random_vector(random, n), before = test::solved(M, momentum).value();
-            std::vector<ConeRows> cones;
+            std::vector<ContactCone> cones;
             Situation here{
                 .M = M, .f = VectorXd::Zero(n), .bilateral = Plate::rows(0), .contacts = Plate::rows(0)};
             here.bilateral.rows.resize(0, n);
             here.contacts = {.rows = MatrixXd(contacts, n),
                              .value = VectorXd::Zero(contacts),
-                             .drift = VectorXd(contacts),
+                             .offset = VectorXd(contacts),
                              .acceleration = VectorXd::Zero(contacts)};
             std::vector<int> near;
             for (int i = 0; i < contacts; ++i) {
                 const RowVectorXd normal = random_vector(random, n).transpose(),
-                                  slip = random_vector(random, n).transpose();
+                                  tangent = random_vector(random, n).transpose();
                 const VectorXd offsets = 0.3 * random_vector(random, 2);
                 cones.push_back({.normal = normal,
                                  .offset = offsets[0],
-                                 .slip = slip,
-                                 .slip_offset = VectorXd::Constant(1, offsets[1]),
+                                 .tangent = tangent,
+                                 .tangent_offset = VectorXd::Constant(1, offsets[1]),
                                  .coefficient = mu,
                                  .resting = mu});
                 here.contacts.rows.row(i) = normal;
-                here.contacts.drift[i] = offsets[0];
+                here.contacts.offset[i] = offsets[0];
                 here.rough.push_back({.contact = i,
-                                      .slip = slip,
-                                      .drift = VectorXd::Constant(1, offsets[1]),
-                                      .velocity = slip * before + VectorXd::Constant(1, offsets[1]),
+                                      .tangent = tangent,
+                                      .offset = VectorXd::Constant(1, offsets[1]),
+                                      .velocity = tangent * before + VectorXd::Constant(1, offsets[1]),
                                       .acceleration = VectorXd::Zero(1),
                                       .coefficient = mu,
                                       .resting = mu,
@@ -286,7 +287,7 @@ TEST_CASE("rough together: along lines the only result is found, and each refusa
                 return failure.empty() ? "found" : failure;
             };
             // The impulse of 0 at the same instant keeps all contacts together.
-            const RoughStrike hit = strike_rough_contacts(
+            const FrictionalImpact hit = strike_rough_contacts(
                 here, before, near, std::vector<double>(static_cast<std::size_t>(contacts), 0.0),
                 VectorXd::Zero(n));
             const std::string in_lines = reason(hit.failure);
@@ -337,7 +338,7 @@ TEST_CASE("rough together: random impacts obey Moreau's law with cones, and gain
         u[2] = -2 - std::abs(u[2]);  // all feet strike
         u[5] *= 5;
         const Situation here = plate.at(u);
-        const RoughStrike hit = plate.struck(u);
+        const FrictionalImpact hit = plate.struck(u);
         if (!hit) {
             gaining += hit.failure.find("gain energy") != std::string::npos;
             continue;
@@ -364,10 +365,10 @@ TEST_CASE("rough together: random impacts obey Moreau's law with cones, and gain
         bool all_slide = hit.events.size() == 3;
         for (const ContactEvent& event : hit.events) {
             const Situation::Rough& rough = here.rough[static_cast<std::size_t>(event.contact)];
-            const VectorXd slip = rough.slip * hit.after;
-            all_slide = all_slide && slip.norm() > 1e-6;
+            const VectorXd sliding = rough.tangent * hit.after;
+            all_slide = all_slide && sliding.norm() > 1e-6;
             whole += event.impulse * here.contacts.rows.row(event.contact).transpose();
-            whole -= plate.mu * event.impulse * rough.slip.transpose() * slip / slip.norm();
+            whole -= plate.mu * event.impulse * rough.tangent.transpose() * sliding / sliding.norm();
         }
         if (all_slide) CHECK((whole - change).norm() <= 1e-9 * size);
     }
@@ -381,11 +382,11 @@ TEST_CASE("rough together: an impact with more than one consistent result is tol
     const auto choice = [](double mu, double coupling, double unit, int bound = 0) {
         MatrixXd M = unit * MatrixXd::Identity(3, 3);
         M(0, 1) = M(1, 0) = unit * coupling;
-        std::vector<ConeRows> rows;
+        std::vector<ContactCone> rows;
         rows.push_back({.normal = RowVectorXd{{1, 0, 0}},
                         .offset = 0,
-                        .slip = MatrixXd{{0, 1, 0}, {0, 0, 1}},
-                        .slip_offset = VectorXd::Zero(2),
+                        .tangent = MatrixXd{{0, 1, 0}, {0, 0, 1}},
+                        .tangent_offset = VectorXd::Zero(2),
                         .coefficient = mu,
                         .resting = mu});
         MatrixXd A = MatrixXd::Zero(bound, 3);

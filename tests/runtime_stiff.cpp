@@ -60,10 +60,10 @@ double order_by_steps(Method method, double coarse, double fine) {
 template <class Formula>
 double equal_steps_error(int steps) {
     const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
-    Stepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
+    FormulaStepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
     for (int i = 1; i <= steps; ++i) {
         step.attempt(5. * i / steps);
-        step.misfit();
+        step.error_norm();
         step.finish();
         step.advance();
     }
@@ -75,10 +75,10 @@ double equal_steps_error(int steps) {
 template <class Formula>
 double equal_steps_error_from_short_ones(int steps) {
     const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
-    Stepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
+    FormulaStepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
     const auto go_to = [&](double t) {
         step.attempt(t);
-        step.misfit();
+        step.error_norm();
         step.finish();
         step.advance();
     };
@@ -101,9 +101,9 @@ namespace {
 template <class Formula>
 double within_step(double h) {
     const Rhs rhs = pendulum();
-    Stepper<Formula> step(rhs, 0, pendulum_start, 1e-14);
+    FormulaStepper<Formula> step(rhs, 0, pendulum_start, 1e-14);
     step.attempt(h);
-    step.misfit();
+    step.error_norm();
     step.finish();
     double worst = 0;
     for (int i = 1; i < 16; ++i) {
@@ -131,10 +131,10 @@ double order_on_the_oscillator(int steps, int more) {
             rate[0] = y[1];
             rate[1] = -y[0];
         });
-        Stepper<Formula> step(rhs, 0, std::vector<double>{1, 0}, 1e-14);
+        FormulaStepper<Formula> step(rhs, 0, std::vector<double>{1, 0}, 1e-14);
         for (int i = 1; i <= count; ++i) {
             step.attempt(24. * i / count);
-            step.misfit();
+            step.error_norm();
             CHECK(step.solved());
             step.finish();
             step.advance();
@@ -283,12 +283,12 @@ TEST_CASE("radau: shifted systems of first and of second order are solved as Eig
             const Eigen::MatrixXcd A =
                 Eigen::MatrixXcd::Identity(size, size) * sigma - J.cast<std::complex<double>>();
             const Eigen::VectorXcd b = Eigen::VectorXcd::Random(size), expected = A.partialPivLu().solve(b);
-            Shifted<std::complex<double>> system(size);
+            ShiftedLinearSolver<std::complex<double>> system(size);
             system.factor(J, second_order(J), sigma);
             Eigen::VectorXcd x(size);
             system.solve(b.data(), x.data());
             CHECK((x - expected).norm() < 1e-11 * expected.norm());
-            Shifted<double> real(size);
+            ShiftedLinearSolver<double> real(size);
             real.factor(J, second_order(J), 50.0);
             const Eigen::VectorXd side = b.real();
             Eigen::VectorXd y(size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Motions with signs in the right-hand side, against closed forms.
-#include "alembert/hybrid/filippov.hpp"
+#include "alembert/hybrid/filippov_system.hpp"
 
 #include <doctest/doctest.h>
 
@@ -160,12 +160,12 @@ TEST_CASE("even shares: the largest share is the least that a search by golden s
     };
     for (int trial = 0; trial < 50; ++trial) {
         CAPTURE(trial);
-        const std::vector<ShareOfContact> contacts = {{0, 2, 1.0}, {2, 1, 1.5}, {3, 2, 0.7}, {5, 2, 1.2}};
+        const std::vector<ReactionBound> contacts = {{0, 2, 1.0}, {2, 1, 1.5}, {3, 2, 0.7}, {5, 2, 1.2}};
         const Eigen::VectorXd given = matrix(7, 1);
         const Eigen::MatrixXd free = matrix(7, 2);
         const auto largest = [&](const Eigen::VectorXd& alpha) {
             double share = 0;
-            for (const ShareOfContact& c : contacts)
+            for (const ReactionBound& c : contacts)
                 share = std::max(share, alpha.segment(c.first, c.size).norm() / c.bound);
             return share;
         };
@@ -182,18 +182,18 @@ TEST_CASE("even shares: the largest share is the least that a search by golden s
         const double found = least([&](double z0) {
             return least([&](double z1) { return largest(given + free * Eigen::Vector2d(z0, z1)); });
         });
-        const Eigen::VectorXd even = even_shares(given, free, contacts);
+        const Eigen::VectorXd even = minimax_reactions(given, free, contacts);
         CHECK(largest(even) == doctest::Approx(found).epsilon(1e-7));
         CHECK(largest(even) <= found * (1 + 1e-12));
         // It is reached within what is free.
         const Eigen::VectorXd change = even - given;
         CHECK((free * least_norm(free, change).x - change).norm() < 1e-9 * (1 + even.norm()));
     }
-    CHECK(even_shares(Eigen::Vector2d(3, 4), Eigen::MatrixXd(2, 0), {{0, 2, 1.0}}) == Eigen::Vector2d(3, 4));
+    CHECK(minimax_reactions(Eigen::Vector2d(3, 4), Eigen::MatrixXd(2, 0), {{0, 2, 1.0}}) == Eigen::Vector2d(3, 4));
     // Two equal contacts share a load, whatever they had.
-    const Eigen::VectorXd two =
-        even_shares(Eigen::Vector4d(0.3, 0.1, 1.7, -0.1),
-                    (Eigen::MatrixXd(4, 2) << 1, 0, 0, 1, -1, 0, 0, -1).finished(), {{0, 2, 2.0}, {2, 2, 2.0}});
+    const Eigen::VectorXd two = minimax_reactions(Eigen::Vector4d(0.3, 0.1, 1.7, -0.1),
+                                                  (Eigen::MatrixXd(4, 2) << 1, 0, 0, 1, -1, 0, 0, -1).finished(),
+                                                  {{0, 2, 2.0}, {2, 2, 2.0}});
     CHECK((two - Eigen::Vector4d(1, 0, 1, 0)).norm() < 1e-7);
 }
 

@@ -11,7 +11,7 @@
 
 #include "alembert/ode/gauss.hpp"
 #include "alembert/ode/integrate.hpp"
-#include "alembert/ode/symplectic.hpp"
+#include "alembert/ode/symplectic_composition.hpp"
 #include "runtime_systems.hpp"
 
 namespace runtime_symplectic {

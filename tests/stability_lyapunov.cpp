@@ -236,7 +236,7 @@ TEST_CASE("lyapunov: quartic forms are called definite only where a fine grid fi
             const Monomials::Exponents& e = monomials.exponents(i);
             const int c = whole(random) + (*std::max_element(e.begin(), e.end()) == 4 ? k / 5 : 0);
             terms.emplace_back(e, c);
-            Expansion term{Certain(c)};
+            Expansion term{RealBall(c)};
             for (int v = 0; v < 3; ++v)
                 for (int j = 0; j < e[v]; ++j) term *= Expansion::variable(monomials, v, 0);
             f += term;

@@ -18,16 +18,16 @@ using namespace alembert;
 using GiNaC::ex;
 
 TEST_CASE("stability: numbers are exact if possible, and otherwise intervals contain the value") {
-    const Certain pi = Certain::pi_multiple(0, 1);
-    CHECK((sin(pi / 6) - Certain(Rational(1) / 2)).is_zero());
-    CHECK((cos(pi / 4) * cos(pi / 4) - Certain(Rational(1) / 2)).is_zero());
-    CHECK((sqrt(Certain(8)) * sqrt(Certain(2)) - 4).is_zero());
-    CHECK(((1 + sqrt(Certain(5))) / 2 * ((1 - sqrt(Certain(5))) / 2) + 1).is_zero());
-    CHECK((atan(Certain(1)) - pi / 4).is_zero());
-    CHECK(sin(Certain(3)).sign() == 1);
-    CHECK(!(exp(Certain(1)) - exp(Certain(1))).sign());
-    CHECK((exp(Certain(1)) - 2).sign() == 1);
-    CHECK(std::abs(sqrt(Certain(2)).number() - 1.4142135623730951) < 1e-16);
+    const RealBall pi = RealBall::pi_multiple(0, 1);
+    CHECK((sin(pi / 6) - RealBall(Rational(1) / 2)).is_zero());
+    CHECK((cos(pi / 4) * cos(pi / 4) - RealBall(Rational(1) / 2)).is_zero());
+    CHECK((sqrt(RealBall(8)) * sqrt(RealBall(2)) - 4).is_zero());
+    CHECK(((1 + sqrt(RealBall(5))) / 2 * ((1 - sqrt(RealBall(5))) / 2) + 1).is_zero());
+    CHECK((atan(RealBall(1)) - pi / 4).is_zero());
+    CHECK(sin(RealBall(3)).sign() == 1);
+    CHECK(!(exp(RealBall(1)) - exp(RealBall(1))).sign());
+    CHECK((exp(RealBall(1)) - 2).sign() == 1);
+    CHECK(std::abs(sqrt(RealBall(2)).number() - 1.4142135623730951) < 1e-16);
 }
 
 TEST_CASE("stability: Routh-Hurwitz conditions of third and fourth order are the textbook's") {
@@ -62,7 +62,7 @@ TEST_CASE("stability: 10000 random polynomials satisfy the conditions exactly wh
         const std::vector<ex> conditions = hurwitz_conditions(p), all = hurwitz_determinants(p);
         for (int k = 0; k < 5000; ++k) {
             GiNaC::exmap values;
-            CertainVector numbers{1};
+            RealBallVector numbers{1};
             for (int i = 0; i < order; ++i) {
                 const int value = coefficient(random);
                 values[symbols[static_cast<std::size_t>(i)]] = value;
@@ -96,9 +96,9 @@ TEST_CASE(
     std::uniform_int_distribution<int> whole(-4, 4), times(1, 2);
     for (int k = 0; k < 200; ++k) {
         std::vector<std::complex<double>> made;
-        CertainVector p{1};
-        const auto multiply = [&](const CertainVector& factor) {
-            CertainVector product(p.size() + factor.size() - 1, Certain(0));
+        RealBallVector p{1};
+        const auto multiply = [&](const RealBallVector& factor) {
+            RealBallVector product(p.size() + factor.size() - 1, RealBall(0));
             for (std::size_t i = 0; i < p.size(); ++i)
                 for (std::size_t j = 0; j < factor.size(); ++j) product[i + j] += p[i] * factor[j];
             p = product;

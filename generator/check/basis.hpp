@@ -5,8 +5,7 @@
 /// that obey them, each of which is computed once however many claims are compared with the equations there.
 ///
 ///     Basis basis(bound.mechanism, bound.equations);
-///     basis.states({.spoken = {0}, .halvings = 1}).get(2);       // the third state, with the reaction of a
-///     contact
+///     basis.states({.spoken = {0}, .halvings = 1}).get(2);       // the third, with the reaction of a contact
 
 #include <compare>
 #include <map>
@@ -16,7 +15,7 @@
 #include <vector>
 
 #include "analysis/exact/exact_states.hpp"
-#include "check/absent.hpp"
+#include "check/missing_terms.hpp"
 #include "model/formalism/equations.hpp"
 
 namespace alembert {

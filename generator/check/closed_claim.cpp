@@ -22,7 +22,7 @@ namespace {
 /// What numbers say of a claim that vanishes in exact arithmetic, if they are asked: where signs decide in the
 /// claim, or in the equations, with which it can be compared if states are found.
 InNumbers seen_in_numbers(Comparison& now, const Motions& motions, const Program& p, int root) {
-    if (!motions.rubbed().empty())
+    if (!motions.rows_with_friction().empty())
         return hold_in_numbers(told(now), motions, p, {root})[0] ? InNumbers::holds : InNumbers::fails;
     if (depends_on_sides(p, {root}) || has_long_numbers(p, {root})) return in_numbers(told(now), motions, p, root);
     // The prime field lacks some roots of the equations of rest, as √3.
@@ -30,7 +30,7 @@ InNumbers seen_in_numbers(Comparison& now, const Motions& motions, const Program
         return in_numbers(told(now), motions, p, root) == InNumbers::fails ? InNumbers::fails : InNumbers::holds;
     std::vector<int> entries = motions.entries().M;
     for (const auto* part :
-         {&motions.entries().f, &motions.entries().A, &motions.entries().drift, &motions.entries().gamma})
+         {&motions.entries().f, &motions.entries().A, &motions.entries().offset, &motions.entries().gamma})
         entries.insert(entries.end(), part->begin(), part->end());
     const bool may_fail =
         depends_on_sides(motions.program(), entries) || has_long_numbers(motions.program(), entries);
@@ -41,7 +41,7 @@ InNumbers seen_in_numbers(Comparison& now, const Motions& motions, const Program
 /// A claim that holds with other signs of the multipliers of friction, and in numbers, has the right ones.
 bool holds_with_signs_turned(Comparison& now, std::size_t k, const ExactStates& states, const Program& p,
                              int root) {
-    const unsigned choices = 1U << states.motions.rubbed().size();
+    const unsigned choices = 1U << states.motions.rows_with_friction().size();
     for (unsigned turned = 1; turned < choices; ++turned) {
         ExactStates others(
             now.m, now.law,
@@ -163,8 +163,8 @@ bool is_whole_turns(Comparison& now, std::size_t k, const Motions& motions, Exac
 /// Whether what exact arithmetic has no states for holds on the scene's own branch by its digits; nothing if these
 /// do not tell. A smooth function that is zero near a state of a branch is zero on all of it.
 std::optional<bool> holds_by_digits(Comparison& now, std::size_t k, const Motions& motions) {
-    if (now.at != Claim::At::motion || !motions.own() || motions.has_sides() || !motions.rubbed().empty() ||
-        !now.spoken.empty() || !now.forms[k].open.empty())
+    if (now.at != Claim::At::motion || !motions.own() || motions.has_sides() ||
+        !motions.rows_with_friction().empty() || !now.spoken.empty() || !now.forms[k].open.empty())
         return std::nullopt;
     Program p;
     const int root = now.claims.lower(p, {now.forms[k].residual})[0];
@@ -372,7 +372,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
         c.verdict = Verdict::proved;
         return;
     }
-    const bool is_rubbed = !states.motions.rubbed().empty();
+    const bool has_friction = !states.motions.rows_with_friction().empty();
     const InNumbers seen = *zero ? seen_in_numbers(now, states.motions, p, root) : InNumbers::fails;
     if (seen == InNumbers::unknown) {
         c.reason =
@@ -396,7 +396,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
                         (now.at == Claim::At::impact && is_identically_zero(now.forms[k].residual, now.m));
         return;
     }
-    if (is_rubbed && holds_with_signs_turned(now, k, states, p, root)) {
+    if (has_friction && holds_with_signs_turned(now, k, states, p, root)) {
         c.verdict = Verdict::proved;
         return;
     }
@@ -420,7 +420,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
         return;
     }
     refute(c, *shown);
-    if (!*zero || is_rubbed)
+    if (!*zero || has_friction)
         explain(now, k, states);  // repairs are compared in the arithmetic that was wrong here
 }
 

@@ -77,7 +77,7 @@ void add_unspecified(const Told& told, const Motions& motions, const Program& p,
                      const RealState& state, Counterexample& result) {
     add_unspecified(told, p, roots, state, result);
     const Motions::System& system = motions.entries();
-    for (const auto* entries : {&system.M, &system.f, &system.A, &system.drift, &system.gamma})
+    for (const auto* entries : {&system.M, &system.f, &system.A, &system.offset, &system.gamma})
         add_unspecified(told, motions.program(), *entries, state, result);
 }
 
@@ -168,7 +168,7 @@ private:
         static std::vector<int> roots_of(const Motions& motions) {
             const Motions::System& system = motions.entries();
             std::vector<int> result;
-            for (const auto* entries : {&system.M, &system.f, &system.A, &system.drift, &system.gamma})
+            for (const auto* entries : {&system.M, &system.f, &system.A, &system.offset, &system.gamma})
                 result.insert(result.end(), entries->begin(), entries->end());
             return result;
         }

@@ -59,7 +59,7 @@ public:
                         {.is_right = [this](const Claim& claim) { return is_right(claim); },
                          .vanishes = [this](const Expression& value) { return vanishes(value); },
                          .terms = [this]() -> const EquationTerms& { return terms(); },
-                         .absent = [this] { return absent(); },
+                         .missing = [this] { return missing(); },
                          .arithmetic = arithmetic ? &*arithmetic : nullptr});
         if (repair)
             tell(*repair, result);
@@ -192,7 +192,7 @@ private:
     }
 
     /// Terms that the claim may lack.
-    std::vector<AbsentTerm> absent() {
+    std::vector<MissingTerm> missing() {
         const std::optional<int> derivative = free_derivative();
         if (!derivative) return {};
         Program p;
@@ -220,8 +220,8 @@ private:
         const std::size_t most = states_.motions.where() == Motions::At::rest ? states_of_rest : 12;
         for (std::size_t s = 0; s < most && states_.get(s) != nullptr; ++s)
             points.push_back(states_.get(s)->point);
-        std::vector<AbsentTerm> result;
-        for (const Absent& found : absent_terms(p, residual, nodes, steady_nodes, points)) {
+        std::vector<MissingTerm> result;
+        for (const MissingFactor& found : missing_terms(p, residual, nodes, steady_nodes, points)) {
             // In one pose all rates are multiples of the impulses, which are more often forgotten.
             constexpr int of_rate = 6;
             const Factors& term = terms[found.term];
@@ -231,7 +231,7 @@ private:
             result.push_back({product_of(std::move(factors)), found.effort + (has_rate ? of_rate : 0)});
         }
         std::stable_sort(result.begin(), result.end(),
-                         [](const AbsentTerm& a, const AbsentTerm& b) { return a.effort < b.effort; });
+                         [](const MissingTerm& a, const MissingTerm& b) { return a.effort < b.effort; });
         return result;
     }
 
@@ -296,9 +296,9 @@ private:
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const Prime value = at->value[nodes[k]];
             result.values[{Variable::Kind::parameter, static_cast<int>(k)}] = value;
-            const ex turns = values[k] / GiNaC::Pi;
-            if (values[k].is_zero() || !turns.info(GiNaC::info_flags::rational)) continue;
-            const Rational part = cln::the<cln::cl_RA>(GiNaC::ex_to<numeric>(turns).to_cl_N()) /
+            const ex half_turns = values[k] / GiNaC::Pi;
+            if (values[k].is_zero() || !half_turns.info(GiNaC::info_flags::rational)) continue;
+            const Rational part = cln::the<cln::cl_RA>(GiNaC::ex_to<numeric>(half_turns).to_cl_N()) /
                                   cln::ash(1, states_.motions.halves());
             if (const auto turn = PrimeTurn::by_pi(part)) result.angles[value] = *turn;
         }

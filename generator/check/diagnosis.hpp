@@ -12,8 +12,8 @@
 #include <set>
 
 #include "analysis/exact/exact_states.hpp"
-#include "check/absent.hpp"
 #include "check/claims.hpp"
+#include "check/missing_terms.hpp"
 #include "check/slip.hpp"
 
 namespace alembert {

@@ -39,7 +39,7 @@ std::vector<ex> parts_of(const Equations& law, const Mechanism& m) {
     for (const auto& row : law.A) list.insert(list.end(), row.begin(), row.end());
     list.insert(list.end(), law.gamma.begin(), law.gamma.end());
     for (const Mechanism::Constraint& c : m.constraints) {
-        list.push_back(c.drift);
+        list.push_back(c.offset);
         if (c.position) list.push_back(*c.position);
     }
     return list;
@@ -229,7 +229,7 @@ std::optional<Counterexample> InCells::on_own_branch(const Counterexample& shown
 bool InCells::refuse(const std::string& reason) {
     now_.verdicts[claim_].verdict = Verdict::undecided;
     now_.verdicts[claim_].reason = reason;
-    return states_.motions.rubbed().empty();
+    return states_.motions.rows_with_friction().empty();
 }
 
 bool InCells::fails() {

@@ -4,8 +4,7 @@
 /// A claim that something is constant, such as sign(x) = C, is not proved by a derivative that is zero wherever
 /// there is one: on the border of two cells it may jump.
 ///
-///     if (const FoundJump jump = find_jump(told, motions, program, node); jump.shown) …   // it jumps at this
-///     state
+///     if (const FoundJump jump = find_jump(told, motions, program, node); jump.shown) …   // where it jumps
 
 #include <functional>
 

@@ -94,7 +94,7 @@ std::string NearPoint::obstacle() {
     if (std::string reason = place_dependent(); !reason.empty()) return reason;
     for (std::size_t k = 0; k < e_.A.size(); ++k) {
         const Mechanism::Constraint& c = m_.constraints[k];
-        GiNaC::exvector rate{c.drift}, acceleration{-e_.gamma[k]};
+        GiNaC::exvector rate{c.offset}, acceleration{-e_.gamma[k]};
         for (int i = 0; i < m_.size(); ++i) {
             rate.push_back(e_.A[k][i] * m_.qdot[i]);
             acceleration.push_back(e_.A[k][i] * m_.qddot[i]);

@@ -6,7 +6,7 @@
 #include <array>
 #include <functional>
 
-#include "check/absent.hpp"
+#include "check/missing_terms.hpp"
 #include "check/steady_factor.hpp"
 
 namespace alembert {

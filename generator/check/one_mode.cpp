@@ -307,7 +307,7 @@ private:
         for (const std::size_t k : here)
             if (now_.forms[k].open.empty())
                 settle_alone(k, *states);
-            else if (!states->motions.rubbed().empty())
+            else if (!states->motions.rows_with_friction().empty())
                 now_.verdicts[k].reason =
                     say("it leaves names open, and the side that a constraint with friction presses is known in "
                         "numbers only");

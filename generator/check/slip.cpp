@@ -20,7 +20,7 @@ namespace {
 
 /// Sizes of what follows the changes of a part.
 constexpr int most_own_terms = 3;
-constexpr double of_own_term = 1.72, of_more_terms = 1.3, of_alien_force = 2.95, of_absent_term = 3.05,
+constexpr double of_own_term = 1.72, of_more_terms = 1.3, of_alien_force = 2.95, of_missing_term = 3.05,
                  of_two_signs = 3.3;
 /// A correction that gives the scene's own equation, energy or momentum term by term counts as smaller by this.
 constexpr double largest_bonus = 0.5, bonus_but_for_a_factor = 0.36;
@@ -45,9 +45,9 @@ public:
         }
         add_own_terms(parts);
         const std::optional<Found> found = smallest(parts);
-        if (found && found->size < of_absent_term) return found->repair;
+        if (found && found->size < of_missing_term) return found->repair;
         std::vector<Edit> rest;
-        add_absent_terms(rest);
+        add_missing_terms(rest);
         add_pairs_of_signs(rest);
         const std::optional<Found> other = smallest(rest);
         if (found && (!other || found->size <= other->size)) return found->repair;
@@ -248,13 +248,13 @@ private:
         }
     }
 
-    void add_absent_terms(std::vector<Edit>& edits) {
+    void add_missing_terms(std::vector<Edit>& edits) {
         constexpr std::size_t most_tried = 12;
-        const std::vector<AbsentTerm> absent = judge_.absent();
-        for (std::size_t k = 0; k < std::min(most_tried, absent.size()); ++k)
-            if (const TreePtr& term = absent[k].tree; !is_there(*term))
-                edits.push_back(
-                    edits_.with_term(tidy(term), is_accelerated(*term), of_absent_term + 0.1 * absent[k].effort));
+        const std::vector<MissingTerm> missing = judge_.missing();
+        for (std::size_t k = 0; k < std::min(most_tried, missing.size()); ++k)
+            if (const TreePtr& term = missing[k].tree; !is_there(*term))
+                edits.push_back(edits_.with_term(tidy(term), is_accelerated(*term),
+                                                 of_missing_term + 0.1 * missing[k].effort));
     }
 
     /// With equal factors together.

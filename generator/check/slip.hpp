@@ -3,7 +3,7 @@
 
 /// Finds the probable mistake of a student: the smallest change in one place that makes a claim right.
 ///
-///     const Judge judge{.is_right = …, .vanishes = …, .terms = …, .absent = …};
+///     const Judge judge{.is_right = …, .vanishes = …, .terms = …, .missing = …};
 ///     const auto found = likely_slip(claim, residual, mechanism, equations, judge);
 ///     found->slip.kind      // "sign"
 ///     found->slip.term      // "m*g*sin(theta)", as the claim has it
@@ -18,7 +18,7 @@
 #include <functional>
 #include <optional>
 
-#include "check/absent.hpp"
+#include "check/missing_terms.hpp"
 #include "check/verdict.hpp"
 #include "model/formalism/equations.hpp"
 #include "scene/scene.hpp"
@@ -28,7 +28,7 @@ namespace alembert {
 class ClaimArithmetic;
 
 /// A term that the claim may lack, to be added on the left, and how much there is in its coefficient.
-struct AbsentTerm {
+struct MissingTerm {
     TreePtr tree;
     int effort = 0;
 };
@@ -36,10 +36,10 @@ struct AbsentTerm {
 /// The questions that can be asked about modified claims.
 struct Judge {
     std::function<bool(const Claim&)> is_right;
-    std::function<bool(const Expression&)> vanishes;  ///< whether it is zero on every motion
-    std::function<const EquationTerms&()> terms;      ///< what stands in the equations
-    std::function<std::vector<AbsentTerm>()> absent;  ///< the simplest first
-    ClaimArithmetic* arithmetic = nullptr;            ///< of the claim; null if it cannot be evaluated
+    std::function<bool(const Expression&)> vanishes;    ///< whether it is zero on every motion
+    std::function<const EquationTerms&()> terms;        ///< what stands in the equations
+    std::function<std::vector<MissingTerm>()> missing;  ///< the simplest first
+    ClaimArithmetic* arithmetic = nullptr;              ///< of the claim; null if it cannot be evaluated
 };
 
 /// A slip, and the claim that is right without it.

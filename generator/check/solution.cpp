@@ -51,7 +51,7 @@ public:
             result.push_back(GiNaC::add(std::move(terms)));
         }
         for (const Mechanism::Constraint& c : m_.constraints) {
-            GiNaC::exvector terms{c.drift};
+            GiNaC::exvector terms{c.offset};
             for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
             result.push_back(c.position ? *c.position : ex(GiNaC::add(std::move(terms))));
         }

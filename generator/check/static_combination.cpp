@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "analysis/exact/square_points.hpp"
+#include "analysis/exact/quadratic_residue_points.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {
@@ -31,7 +31,7 @@ public:
         list.insert(list.end(), law.gamma.begin(), law.gamma.end());
         for (const auto* constraints : {&m_.constraints, &m_.redundant})
             for (const Mechanism::Constraint& c : *constraints) {
-                list.push_back(c.drift);
+                list.push_back(c.offset);
                 if (c.position) list.push_back(*c.position);
             }
         equations_ = claims.lower(p_, list);
@@ -148,7 +148,7 @@ private:
         roots.insert(roots.end(), factors_.begin(), factors_.end());
         roots.insert(roots.end(), denominators_.begin(), denominators_.end());
         const int finer = std::max(0, halvings(p_, roots) - ModularPoint{}.halves);
-        const SquarePoints usable({{&p_, roots}}, {});
+        const QuadraticResiduePoints usable({{&p_, roots}}, {});
         std::vector<std::vector<Prime>> rows;
         double conditions = 0, highest = 1;
         for (std::uint64_t seed = 1; rows.size() < columns + spare_states; ++seed) {

@@ -4,8 +4,7 @@
 /// Is a value zero on every motion? Decided by exact evaluation modulo 2⁶¹ − 1 at random states.
 ///
 ///     double failure = 0;
-///     vanishes_at(states, program, root, failure) == std::optional(true)      // proved, but for a chance of
-///     2^failure
+///     vanishes_at(states, program, root, failure) == std::optional(true)      // but for a chance of 2^failure
 ///
 /// An identity of degree d that is false holds at a random point of GF(p) with a probability of at most d/p
 /// (Schwartz, J. ACM 27 (1980) 701). Where the constraints have branches, states are added until the probability

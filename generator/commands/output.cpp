@@ -17,7 +17,7 @@
 #include <tuple>
 
 #include "alembert/base/error.hpp"
-#include "alembert/native/temporary_files.hpp"
+#include "alembert/native/temporary_file.hpp"
 #include "base/language/say.hpp"
 #include "commands/streams.hpp"
 
@@ -147,7 +147,7 @@ void write_beside(const std::string& path, const fs::path& file, const Producer&
         if (made < 0 && errno != EEXIST) break;
     }
     if (made < 0) fail(path, std::strerror(errno));
-    const Leftover beside(part);
+    const TemporaryFile beside(part);
     Descriptor opened(made);
     if (before) {
         // Only the superuser can do this, and needs to.

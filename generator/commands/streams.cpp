@@ -14,7 +14,7 @@
 #include <iostream>
 #include <tuple>
 
-#include "alembert/native/temporary_files.hpp"
+#include "alembert/native/temporary_file.hpp"
 #include "base/language/say.hpp"
 #include "commands/terminal.hpp"
 #include "scene/text.hpp"

@@ -18,8 +18,8 @@ namespace alembert {
 
 /// Makes stdout, stderr, std::cout and std::cerr pass their text through `harmless`; keeps the first three
 /// descriptors from being taken by files if they are closed; and makes SIGINT, SIGTERM, SIGHUP and SIGPIPE remove
-/// temporary files (leftover.hpp) before they end the process. Signals that were ignored at the start remain
-/// ignored.
+/// temporary files (alembert/native/temporary_file.hpp) before they end the process. Signals that were ignored at
+/// the start remain ignored.
 void guard_streams();
 
 /// `code`, or 5 with a message on standard error if not everything could be written to standard output.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/method.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/formalisms.hpp"
 

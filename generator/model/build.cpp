@@ -27,7 +27,7 @@ void add_speeds(Building& here) {
             SourceScope source(*here.m.z, "speed " + s.name.text);
             Mechanism::Speed& made = here.m.speeds[i];
             made.form = here.m.z->name(here.translator.scalar(s.form));
-            std::tie(made.row, made.drift) = linear_form(made.form, what, s.form.place(), here.m);
+            std::tie(made.row, made.offset) = linear_form(made.form, what, s.form.place(), here.m);
             if (all_zero(made.row)) throw SceneMistake{{s.form.place(), say("{} contains no rate", what)}};
             if (has_start) made.start = s.initial ? here.m.z->expand(here.translator.scalar(s.initial)) : ex(0);
         });

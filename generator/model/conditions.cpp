@@ -52,17 +52,17 @@ void add_norm(Building& here, const FrameQuaternion& quaternion, int index) {
 
 /// The rows of a rolling condition along the axes of the frame in which its contact is given. There are none if
 /// that frame is N, or if a row would be needed for which there is none along N.
-std::vector<Mechanism::Constraint> rows_along_axes(Building& here, const RollingRule& rule, const Vector3& slip,
-                                                   bool drifts) {
+std::vector<Mechanism::Constraint> rows_along_axes(Building& here, const RollingRule& rule,
+                                                   const Vector3& sliding_velocity, bool drifts) {
     std::vector<Mechanism::Constraint> result;
     if (rule.axes.text == "N") return result;
     for (int k = 0; k < 3; ++k) {
         const std::string name = rule.name.text + "_" + "xyz"[k];
-        const ex value = dot(slip, here.places.orientation(rule.axes.text).axis(k), *here.m.z);
-        const auto [row, drift] = linear_form(value, say("rolling '{}'", name), rule.contact.place, here.m);
+        const ex value = dot(sliding_velocity, here.places.orientation(rule.axes.text).axis(k), *here.m.z);
+        const auto [row, offset] = linear_form(value, say("rolling '{}'", name), rule.contact.place, here.m);
         if (std::all_of(row.begin(), row.end(),
                         [&](const ex& entry) { return is_identically_zero(entry, here.m); })) {
-            if (drifts && !drift.is_zero()) return {};
+            if (drifts && !offset.is_zero()) return {};
             continue;
         }
         const auto along_N = std::find_if(here.m.constraints.begin(), here.m.constraints.end(),
@@ -91,12 +91,12 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
         const Orientation& o = here.places.orientation(body);
         return cross(o.to_inertial(o.angular_velocity(), z), arm, z);
     };
-    Vector3 slip = add(here.places.velocity(centre), turning(rule.body.text, c), z);
+    Vector3 sliding_velocity = add(here.places.velocity(centre), turning(rule.body.text, c), z);
     if (rule.on.text != "N") {
-        const Vector3 touching = add(here.places.position(centre), c, z);
-        const Vector3 arm = add(touching, scale(-1, here.places.position(ground), z), z);
+        const Vector3 contact_point = add(here.places.position(centre), c, z);
+        const Vector3 arm = add(contact_point, scale(-1, here.places.position(ground), z), z);
         const Vector3 moving = add(here.places.velocity(ground), turning(rule.on.text, arm), z);
-        slip = add(slip, scale(-1, moving, z), z);
+        sliding_velocity = add(sliding_velocity, scale(-1, moving, z), z);
     }
     const std::array<Name, 3> multipliers = multipliers_of(rule);
     const std::vector<GiNaC::symbol> clock = here.m.clock();
@@ -113,10 +113,11 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
     bool any = false;
     for (int k = 0; k < 3; ++k) {
         const std::string name = rule.name.text + "_" + "xyz"[k];
-        const auto [row, drift] = linear_form(slip[k], say("rolling '{}'", name), rule.contact.place, here.m);
+        const auto [row, offset] =
+            linear_form(sliding_velocity[k], say("rolling '{}'", name), rule.contact.place, here.m);
         if (std::all_of(row.begin(), row.end(),
                         [&](const ex& entry) { return is_identically_zero(entry, here.m); })) {
-            if (drifts && !drift.is_zero())
+            if (drifts && !offset.is_zero())
                 throw SceneMistake{
                     {rule.name.place,
                      say("rolling '{}' cannot hold: along {} the contact moves by itself, whatever the "
@@ -130,7 +131,7 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
         here.m.constraints.push_back(constraint_of(
             {.name = name,
              .holonomic = false,
-             .value = slip[k],
+             .value = sliding_velocity[k],
              .multiplier = here.m.symbols->declare(multipliers[k].text, SymbolInfo::Kind::other, index + k),
              .place = rule.name.place,
              .at = rule.contact.place,
@@ -139,8 +140,9 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
         here.m.constraints.back().rolling = static_cast<int>(here.m.rollings.size());
         here.translator.know(multipliers[k].text, here.m.constraints.back().multiplier);
     }
-    here.m.rollings.push_back(
-        {.name = rule.name.text, .axes = rule.axes.text, .along = rows_along_axes(here, rule, slip, drifts)});
+    here.m.rollings.push_back({.name = rule.name.text,
+                               .axes = rule.axes.text,
+                               .along = rows_along_axes(here, rule, sliding_velocity, drifts)});
     if (!any)
         throw SceneMistake{
             {rule.name.place, say("rolling '{}' says nothing: the point of '{}' at the contact moves with '{}' "
@@ -224,7 +226,7 @@ void close(Building& here, const Joint& joint, int index) {
                            .at = joint.name.place},
                           here.m));
         here.m.constraints.back().joint = index;
-        here.m.constraints.back().turns = row.holonomic && row.lengths.empty();
+        here.m.constraints.back().between_axes = row.holonomic && row.lengths.empty();
         here.translator.know(multiplier, here.m.constraints.back().multiplier);
     }
     align(here, joint, index, here.m.constraints.size() - before);

@@ -44,8 +44,8 @@ std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& w
                          advice)}};
         rest.push_back(-row[i] * m.qdot[i]);
     }
-    const ex drift = m.z->name(GiNaC::add(std::move(rest)));
-    return {row, is_identically_zero(drift, m) ? ex(0) : drift};
+    const ex offset = m.z->name(GiNaC::add(std::move(rest)));
+    return {row, is_identically_zero(offset, m) ? ex(0) : offset};
 }
 
 bool all_zero(const std::vector<ex>& row) {
@@ -59,7 +59,7 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
                                .holonomic = rule.holonomic,
                                .position = {},
                                .row = {},
-                               .drift = 0,
+                               .offset = 0,
                                .acceleration = 0,
                                .multiplier = rule.multiplier,
                                .place = rule.place};
@@ -67,12 +67,12 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
     if (rule.holonomic) {
         made.position = value;
         made.row = z.pull_back({{value, 1}}, m.q);
-        made.drift = m.explicit_time_derivative({value})[0];
+        made.offset = m.explicit_time_derivative({value})[0];
         velocity = m.time_derivative({value})[0];
     } else {
-        std::tie(made.row, made.drift) =
+        std::tie(made.row, made.offset) =
             linear_form(value, say("constraint '{}'", rule.name), rule.at, m, of_second_degree);
-        if (!rule.drifts) made.drift = 0;
+        if (!rule.drifts) made.offset = 0;
     }
     if (all_zero(made.row))
         throw SceneMistake{{rule.at, say("constraint '{}' contains no {}", rule.name,

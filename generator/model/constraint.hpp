@@ -24,7 +24,7 @@ struct Rule {
 /// no rate (nonholonomic).
 Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& mechanism);
 
-/// The coefficients of the rates and the rest: value = row·q' + drift. Throws SceneMistake, whose message begins
+/// The coefficients of the rates and the rest: value = row·q' + offset. Throws SceneMistake, whose message begins
 /// with `what` ("speed 'v'") and ends with `advice`, if the value is not linear in the rates.
 std::pair<std::vector<GiNaC::ex>, GiNaC::ex> linear_form(const GiNaC::ex& value, const std::string& what, Place at,
                                                          const Mechanism& mechanism,

@@ -85,7 +85,7 @@ void declare_coordinates(Building& here) {
                                  .udot = here.m.symbols->declare(s.name.text, SymbolInfo::Kind::speed, index, 1),
                                  .form = 0,
                                  .row = {},
-                                 .drift = 0,
+                                 .offset = 0,
                                  .start = {},
                                  .unit = s.unit,
                                  .place = s.name.place,

@@ -115,9 +115,9 @@ Energy energy_of(const Mechanism& mechanism) {
     ex jacobi_power = z.name(GiNaC::add(std::move(work)) - m.explicit_time_derivative({L})[0]);
     if (is_identically_zero(jacobi_power, m)) jacobi_power = 0;
     // Constraint forces do work where the constraints move: λ·A q' = −λ·b.
-    for (const Mechanism::Constraint& c : m.constraints) jacobi_power -= c.multiplier * c.drift;
+    for (const Mechanism::Constraint& c : m.constraints) jacobi_power -= c.multiplier * c.offset;
     for (const Mechanism::Constraint& c : m.redundant)
-        if (c.tie) jacobi_power -= c.multiplier * c.drift;
+        if (c.tie) jacobi_power -= c.multiplier * c.offset;
     jacobi_power = z.name(jacobi_power);
     result.jacobi_conserved = jacobi_power.is_zero();
     result.power = z.name(jacobi_power + (extra.is_zero() ? ex(0) : m.time_derivative({extra})[0]));

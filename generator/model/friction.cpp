@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. While v stays 0, the sign is
 // replaced by the number between −μₛ/μ and μₛ/μ that keeps it 0; a run finds that number
-// (alembert/hybrid/filippov.hpp).
+// (alembert/hybrid/filippov_system.hpp).
 #include "model/friction.hpp"
 
 #include <fmt/format.h>
@@ -73,14 +73,14 @@ Pressing pressing_on(Building& here, const FrictionRule& rule) {
                              : say("; there are {}", fmt::join(known, ", ")))}};
 }
 
-void need_rate(Building& here, const ex& slip, const Expression& given, const std::string& what) {
-    const auto [row, drift] = linear_form(slip, say("the slip of {}", what), given.place(), here.m);
+void need_rate(Building& here, const ex& sliding_velocity, const Expression& given, const std::string& what) {
+    const auto [row, offset] = linear_form(sliding_velocity, say("the slip of {}", what), given.place(), here.m);
     if (all_zero(row))
         throw SceneMistake{{given.place(), say("the slip of {} contains no rate, so nothing slides there", what)}};
 }
 
 std::vector<ex> components(const Mechanism::Friction& f) {
-    return f.across ? std::vector{f.slip, *f.across} : std::vector{f.slip};
+    return f.across ? std::vector{f.sliding_velocity, *f.across} : std::vector{f.sliding_velocity};
 }
 
 // −μ N sign(v), or −μ N v/|v|
@@ -98,7 +98,7 @@ void add_friction(Building& here, const FrictionRule& rule, int index) {
     SourceScope source(*here.m.z, label(origin));
     need_coefficients(here, rule);
     Mechanism::Friction made{.name = rule.name.text,
-                             .slip = here.m.z->name(here.translator.scalar(rule.slip)),
+                             .sliding_velocity = here.m.z->name(here.translator.scalar(rule.sliding_velocity)),
                              .across = {},
                              .direction = {},
                              .coefficient = here.translator.scalar(rule.coefficient),
@@ -119,14 +119,15 @@ void add_friction(Building& here, const FrictionRule& rule, int index) {
     } else {
         made.normal = here.translator.scalar(rule.normal);
     }
-    need_rate(here, made.slip, rule.slip, what);
+    need_rate(here, made.sliding_velocity, rule.sliding_velocity, what);
     if (rule.across) {
         made.across = here.m.z->name(here.translator.scalar(rule.across));
         need_rate(here, *made.across, rule.across, what);
-        const ex speed = here.m.z->name(pow(pow(made.slip, 2) + pow(*made.across, 2), GiNaC::numeric(1, 2)));
-        made.direction = {here.m.z->name(made.slip / speed), here.m.z->name(*made.across / speed)};
+        const ex speed =
+            here.m.z->name(pow(pow(made.sliding_velocity, 2) + pow(*made.across, 2), GiNaC::numeric(1, 2)));
+        made.direction = {here.m.z->name(made.sliding_velocity / speed), here.m.z->name(*made.across / speed)};
     } else {
-        made.direction = {*here.translator.applied("sign", {made.slip})};
+        made.direction = {*here.translator.applied("sign", {made.sliding_velocity})};
     }
     here.m.loads.push_back({.origin = origin, .pairs = pairs_of(made, *here.m.z)});
     here.m.frictions.push_back(std::move(made));
@@ -173,9 +174,9 @@ Mechanism with_directions_held(Mechanism m, const std::vector<int>& frictions) {
         sides.push_back(add(fmt::format("direction_{}", i + 1), values[2 * frictions.size() + i]));
     for (std::size_t c = 0; c < frictions.size(); ++c) {
         Mechanism::Friction& f = m.frictions[static_cast<std::size_t>(frictions[c])];
-        const ex slides = modes[2 * c], grain = modes[2 * c + 1], p = sides[2 * c], q = sides[2 * c + 1];
-        const ex ahead = m.z->name(f.slip * p + *f.across * q + grain),
-                 turn = m.z->name((*f.across * p - f.slip * q) / ahead),
+        const ex slides = modes[2 * c], smoothing = modes[2 * c + 1], p = sides[2 * c], q = sides[2 * c + 1];
+        const ex ahead = m.z->name(f.sliding_velocity * p + *f.across * q + smoothing),
+                 turn = m.z->name((*f.across * p - f.sliding_velocity * q) / ahead),
                  length = m.z->name(pow(1 + pow(turn, 2), GiNaC::numeric(1, 2)));
         f.direction = {m.z->name((1 - slides) * p + slides * (p - turn * q) / length),
                        m.z->name((1 - slides) * q + slides * (q + turn * p) / length)};

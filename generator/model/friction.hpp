@@ -23,7 +23,7 @@ std::vector<int> frictions_in_planes(const Mechanism& m, const std::vector<int>&
 /// The mechanism in which the directions of these frictions, which act in planes, follow from parameters: after
 /// all others come a mode (0: it sticks, 1: it slides) and δ for each, then two numbers p for each. While it
 /// sticks the direction is p; while it slides it is that of v + δ p, continued smoothly through v = 0 along the
-/// unit vector p (alembert/hybrid/filippov.hpp).
+/// unit vector p (alembert/hybrid/filippov_system.hpp).
 Mechanism with_directions_held(Mechanism m, const std::vector<int>& frictions);
 
 /// The values of these parameters for frictions that slide along their first component.

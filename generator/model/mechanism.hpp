@@ -128,12 +128,12 @@ struct Mechanism {
         GiNaC::ex value;
     };
 
-    /// A generalized speed of the scene, u = row·q' + drift.
+    /// A generalized speed of the scene, u = row·q' + offset.
     struct Speed {
         GiNaC::symbol u, udot;
         GiNaC::ex form;              ///< in q, q', t
         std::vector<GiNaC::ex> row;  ///< ∂form/∂q'
-        GiNaC::ex drift;
+        GiNaC::ex offset;
         std::optional<GiNaC::ex> start;  ///< in parameters; nothing if the scene gives rates
         std::string unit;
         Place place;
@@ -151,22 +151,22 @@ struct Mechanism {
         Shown shown = {};
     };
 
-    /// A constraint as a row: row·q' + drift = 0 and, differentiated once more, row·q'' = acceleration.
+    /// A constraint as a row: row·q' + offset = 0 and, differentiated once more, row·q'' = acceleration.
     struct Constraint {
         std::string name;
         bool holonomic = true;              ///< as the scene declares it
         std::optional<GiNaC::ex> position;  ///< f(q,t) of a holonomic constraint
         std::vector<GiNaC::ex> row;         ///< ∂f/∂q, or the coefficients of q'
-        GiNaC::ex drift;                    ///< ∂f/∂t, or the part without rates
-        GiNaC::ex acceleration;             ///< −(row)'·q' − (drift)'
+        GiNaC::ex offset;                   ///< ∂f/∂t, or the part without rates
+        GiNaC::ex acceleration;             ///< −(row)'·q' − (offset)'
         GiNaC::symbol multiplier;           ///< λ: M q'' = F + Σ row λ
         Place place;
         std::optional<int> joint = {};  ///< position in `joints` of the joint whose loop the row closes
-        bool turns = false;             ///< of such a row: whether it is the cosine of an angle between axes
+        bool between_axes = false;      ///< of such a row: whether it is the cosine of an angle between axes
         /// Position in `rollings` of the rolling condition to which the row belongs.
         std::optional<int> rolling = {};
         /// The constraints of the scene in which the square of this one stands, for people; empty for those that
-        /// the scene gives (analysis/state/touching.hpp).
+        /// the scene gives (analysis/state/irregular_constraints.hpp).
         std::string squared_in = {};
         /// Whether this says that forces are in balance along a rate that no inertia resists
         /// (analysis/state/force_balance.hpp): the multiplier is zero on every motion.
@@ -200,7 +200,7 @@ struct Mechanism {
     /// it sticks, slip = 0, and the force is at most resting·normal.
     struct Friction {
         std::string name;
-        GiNaC::ex slip;  ///< linear in the rates
+        GiNaC::ex sliding_velocity;  ///< linear in the rates
         /// The second component of a sliding velocity v in a plane, along a direction perpendicular to the first.
         /// The friction is then a force of at most resting·normal in any direction, −coefficient·normal·v/|v|
         /// while it slides.

@@ -52,12 +52,12 @@ bool constraints_are_open(const Mechanism& m) {
     const auto row_is_open = [&](const auto& row) { return std::any_of(row.begin(), row.end(), is_open); };
     for (const auto* list : {&m.constraints, &m.redundant})
         for (const Mechanism::Constraint& c : *list)
-            if ((c.position && is_open(*c.position)) || is_open(c.drift) || row_is_open(c.row)) return true;
+            if ((c.position && is_open(*c.position)) || is_open(c.offset) || row_is_open(c.row)) return true;
     for (const Mechanism::Rolling& rolling : m.rollings)
         for (const Mechanism::Constraint& c : rolling.along)
-            if (is_open(c.drift) || row_is_open(c.row)) return true;
+            if (is_open(c.offset) || row_is_open(c.row)) return true;
     return std::any_of(m.speeds.begin(), m.speeds.end(),
-                       [&](const Mechanism::Speed& s) { return is_open(s.drift) || row_is_open(s.row); });
+                       [&](const Mechanism::Speed& s) { return is_open(s.offset) || row_is_open(s.row); });
 }
 
 Mechanism with_sample_functions(const Mechanism& mechanism) {

@@ -5,8 +5,7 @@
 /// expressions.
 ///
 ///     std::vector<std::vector<Prime>> rows = …;                    // the right sides are further columns
-///     const auto pivots = echelon(rows, columns, PrimeField());     // program/reduce_rows.hpp
-///     pivots->size();                                              // the rank among these columns
+///     echelon(rows, columns, PrimeField())->size()                 // the rank (program/reduce_rows.hpp)
 ///
 /// A field says which row has the pivot and how rows are combined:
 ///

@@ -10,7 +10,7 @@
 /// Forward mode (Griewank & Walther, Evaluating Derivatives (2008), §3.1): each node's gradient follows by the
 /// chain rule from those of its arguments, so the derivative has rounding errors only. At a kink of abs, sign, min
 /// or max it is the derivative of one side of this function; in a sum of several such functions the result need
-/// not belong to any side of the sum. germ.hpp gives one-sided derivatives.
+/// not belong to any side of the sum. puiseux_series.hpp gives one-sided derivatives.
 
 #include "program/interpret.hpp"
 

@@ -53,7 +53,7 @@ struct ModularPoint {
     std::vector<Prime> negative_roots{};  ///< numbers whose square root is the other one of the two
     int halves = 2;                       ///< turns are stored for x/2^halves; sin(x/4) needs 2
     int finer = 0;  ///< turns that are not given are stored for x/2^(halves + finer); see halvings() of
-                    ///< analysis/exact/square_points.hpp
+                    ///< analysis/exact/quadratic_residue_points.hpp
 
     /// A uniform random number, the same for the same arguments.
     Prime random(std::uint64_t what, std::uint64_t key, std::uint64_t key2 = 0) const {

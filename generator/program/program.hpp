@@ -141,19 +141,19 @@ enum class Group : unsigned char {
     jacobi,
     output,
     event,
-    slip,               ///< for each dry friction: its sliding velocity,
-    stick_bound,        ///< its static coefficient over the kinetic one,
-    friction,           ///< its coefficient while it slides,
-    normal,             ///< its normal force,
-    determinant,        ///< and the divisor of that force if it is a multiplier, else 1
-                        ///< (program/lower/normal_forces.hpp)
-    friction_column,    ///< ∂f/∂λ of friction whose normal force is a multiplier λ, a number for each speed;
-                        ///< Root::constraint tells which λ
-    slip_acceleration,  ///< the rate of the sliding velocity at q'' = 0
-    grip,               ///< the restitution of the sliding velocity
-    across,             ///< the second component of a sliding velocity in a plane whose direction follows from
-                        ///< parameters; Root::constraint is the position of its friction
-    load,               ///< inverse dynamics: M q'' − f
+    sliding_velocity,  ///< for each dry friction,
+    stick_bound,       ///< its static coefficient over the kinetic one,
+    friction,          ///< its coefficient while it slides,
+    normal,            ///< its normal force,
+    determinant,       ///< and the divisor of that force if it is a multiplier, else 1
+                       ///< (program/lower/normal_forces.hpp)
+    friction_column,   ///< ∂f/∂λ of friction whose normal force is a multiplier λ, a number for each speed;
+                       ///< Root::constraint tells which λ
+    sliding_acceleration,  ///< the rate of the sliding velocity at q'' = 0
+    grip,                  ///< the restitution of the sliding velocity
+    across,                ///< the second component of a sliding velocity in a plane whose direction follows from
+                           ///< parameters; Root::constraint is the position of its friction
+    load,                  ///< inverse dynamics: M q'' − f
     force,
     moment,  ///< the moments of joints, three components for each
     input,   ///< prescribed motions and their derivatives

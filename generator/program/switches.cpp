@@ -163,22 +163,23 @@ std::vector<int> frictions_in_planes(const Program& p) {
 
 /// The two components of the sliding velocity of each friction in a plane.
 std::vector<int> components_in_planes(const Program& p) {
-    const std::vector<int> slips = p.nodes_of(Group::slip), across = p.nodes_of(Group::across),
-                           frictions = frictions_in_planes(p);
+    const std::vector<int> sliding_velocities = p.nodes_of(Group::sliding_velocity),
+                           across = p.nodes_of(Group::across), frictions = frictions_in_planes(p);
     std::vector<int> result;
     for (std::size_t c = 0; c < frictions.size(); ++c)
-        result.insert(result.end(), {slips[static_cast<std::size_t>(frictions[c])], across[c]});
+        result.insert(result.end(), {sliding_velocities[static_cast<std::size_t>(frictions[c])], across[c]});
     return result;
 }
 
 /// The frictions to which each condition belongs. The first conditions are the components of those in planes.
 std::vector<std::vector<Switched::Rubbing>> frictions_of(const Program& p, const std::vector<int>& conditions) {
     std::vector<std::vector<Switched::Rubbing>> result(conditions.size());
-    const std::vector<int> slips = p.nodes_of(Group::slip), planes = frictions_in_planes(p);
+    const std::vector<int> sliding_velocities = p.nodes_of(Group::sliding_velocity),
+                           planes = frictions_in_planes(p);
     for (std::size_t k = 0; k < 2 * planes.size(); ++k) result[k].push_back({planes[k / 2], 1});
-    for (std::size_t i = 0; i < slips.size(); ++i)
+    for (std::size_t i = 0; i < sliding_velocities.size(); ++i)
         for (std::size_t k = 2 * planes.size(); k < conditions.size(); ++k)
-            if (const int direction = ratio_of(p, conditions[k], slips[i]);
+            if (const int direction = ratio_of(p, conditions[k], sliding_velocities[i]);
                 direction != 0 && std::find(planes.begin(), planes.end(), static_cast<int>(i)) == planes.end())
                 result[k].push_back({static_cast<int>(i), direction});
     return result;

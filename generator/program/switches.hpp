@@ -3,7 +3,7 @@
 
 /// Makes a program in which sign, |·|, min and max are smooth. The sign of the function on which each depends
 /// becomes a parameter, +1 or −1, which a run keeps constant until that function is zero
-/// (alembert/hybrid/filippov.hpp).
+/// (alembert/hybrid/filippov_system.hpp).
 ///
 ///     if (const auto s = switched(program)) …        // nothing where the program has none of them
 ///     s->program.parameters.back().name;             // "side_1", after the scene's parameters
@@ -29,7 +29,7 @@ struct Switched {
     /// pair (model/friction.hpp).
     std::vector<int> functions;
     int pairs = 0;  ///< of sliding velocities in planes
-    /// A dry friction (Group::slip) whose sliding velocity has the sign σ, or −σ.
+    /// A dry friction (Group::sliding_velocity) whose sliding velocity has the sign σ, or −σ.
     struct Rubbing {
         int friction;
         int direction;

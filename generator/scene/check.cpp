@@ -405,7 +405,7 @@ private:
                                                  std::pair{&rule.resting, say("a static coefficient of friction")},
                                                  std::pair{&rule.normal, say("a normal force")}})
                 quantities_.check(*value, {.subject = subject, .order = 1, .input_order = 2, .time = true});
-            quantities_.check(rule.slip, rates);
+            quantities_.check(rule.sliding_velocity, rates);
             quantities_.check(rule.across, rates);
             quantities_.check(rule.restitution, {.subject = say("a restitution")});
             if (rule.name.place.line == 0 || !need_name(rule.name, diagnostics_)) continue;

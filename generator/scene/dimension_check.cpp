@@ -76,7 +76,8 @@ private:
         for (const UnilateralRule& u : scene_.unilateral) dimensions_.of(u.gap);
         for (const EventRule& e : scene_.events) dimensions_.of(e.when);
         for (const Output& o : scene_.outputs) dimensions_.of(o.value);
-        for (const FrictionRule& f : scene_.frictions) dimensions_.of(f.slip), dimensions_.of(f.normal);
+        for (const FrictionRule& f : scene_.frictions)
+            dimensions_.of(f.sliding_velocity), dimensions_.of(f.normal);
         for (const Speed& u : scene_.speeds) dimensions_.of(u.form);
         for (const FirstOrderState& z : scene_.states) dimensions_.of(z.rate);
         for (const Link& s : scene_.springs) dimensions_.of(s.along);

@@ -59,11 +59,11 @@ public:
     }
 
     /// What is doubtful in the units of its quantities.
-    const std::vector<Mistake>& doubts() const { return doubts_; }
+    const std::vector<Mistake>& warnings() const { return warnings_; }
 
 private:
     Words words_;
-    std::vector<Mistake> doubts_;
+    std::vector<Mistake> warnings_;
     const bool rates_before_;
     const KnownNames* const names_;  ///< of the scene, and the units of its own; null for none
     int depth_ = 0;
@@ -250,7 +250,7 @@ private:
         const UnitReading unit = names_ == nullptr ? read_unit(text) : read_unit(text, names_->units());
         if (!unit.meaning) stop(unit_begin, say("'{}' is no unit: {}", text, unit.mistake));
         for (const UnitDoubt& doubt : unit.doubts)
-            if (!doubt.mass.empty()) doubts_.push_back({unit_begin, advice_on_mass(doubt)});
+            if (!doubt.mass.empty()) warnings_.push_back({unit_begin, advice_on_mass(doubt)});
         std::vector<TreePtr> factors{number};
         if (!unit.meaning->exact.empty()) factors.push_back(Parser(unit.meaning->exact, false, nullptr).parse());
         Tree whole{Kind::product, "", 0, std::move(factors), begin, words_.end() - begin};
@@ -383,7 +383,7 @@ TreePtr parse(const Expression& expression, bool rates_before, std::vector<Diagn
     try {
         Parser parser(expression.text, rates_before, names);
         TreePtr tree = parser.parse();
-        for (const Mistake& doubt : parser.doubts())
+        for (const Mistake& doubt : parser.warnings())
             diagnostics.push_back(
                 {expression.place(doubt.offset), doubt.message, Severity::warning, "unknown_unit"});
         return tree;

@@ -134,14 +134,14 @@ void read_slip(const Table& table, FrictionRule& rule) {
     const Entry* const entry = table.find("slip");
     const toml::array* const list = entry ? entry->node->as_array() : nullptr;
     if (!list) {
-        rule.slip = table.needed_expression("slip");
+        rule.sliding_velocity = table.needed_expression("slip");
         return;
     }
     if (list->size() != 2)
         return table.complain("slip", say("{} has {} components; expected one expression, or two in an array for "
                                           "a sliding velocity in a plane",
                                           table.what("slip"), list->size()));
-    rule.slip = read_expression(table.reading(), *list->get(0), table.what("slip"));
+    rule.sliding_velocity = read_expression(table.reading(), *list->get(0), table.what("slip"));
     rule.across = read_expression(table.reading(), *list->get(1), table.what("slip"));
 }
 

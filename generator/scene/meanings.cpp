@@ -73,9 +73,9 @@ private:
         for (const FrictionRule& f : scene_.frictions) {
             add(f.coefficient, {}, say("a coefficient of friction"));
             add(f.resting, {}, say("a coefficient of friction"));
-            if (const std::optional<Dimension> slip = dimensions_.of(f.slip);
-                slip && has_masses() && is_told(*slip, f.slip))
-                add(f.normal, multiplied(over_time(energy), *slip, -1), say("a normal force"));
+            if (const std::optional<Dimension> sliding_velocity = dimensions_.of(f.sliding_velocity);
+                sliding_velocity && has_masses() && is_told(*sliding_velocity, f.sliding_velocity))
+                add(f.normal, multiplied(over_time(energy), *sliding_velocity, -1), say("a normal force"));
         }
         for (const RollingRule& r : scene_.rolling)
             add(r.contact, metre, say("the contact of {}", in_quotes(r.name.text)));

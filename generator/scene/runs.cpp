@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/method.hpp"
 #include "base/language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/claim_mode.hpp"

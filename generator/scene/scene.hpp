@@ -243,12 +243,12 @@ struct UnilateralRule {
 struct FrictionRule {
     Name name;
     Expression coefficient;
-    Expression resting;      ///< the static coefficient; null if it is the same
-    Expression slip;         ///< the sliding velocity, linear in the rates
-    Expression across;       ///< its second component, if it is a vector in a plane; null if not
-    std::optional<Name> on;  ///< the constraint or contact whose reaction is N
-    Expression normal;       ///< N; null if `on` is given
-    Expression restitution;  ///< of the sliding velocity in an impact, in parameters; null if it is 0
+    Expression resting;           ///< the static coefficient; null if it is the same
+    Expression sliding_velocity;  ///< linear in the rates
+    Expression across;            ///< its second component, if it is a vector in a plane; null if not
+    std::optional<Name> on;       ///< the constraint or contact whose reaction is N
+    Expression normal;            ///< N; null if `on` is given
+    Expression restitution;       ///< of the sliding velocity in an impact, in parameters; null if it is 0
 };
 
 /// The point of `body` at the mass centre + `contact` has the same velocity as the point of `on` at that place.

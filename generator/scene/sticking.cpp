@@ -28,14 +28,15 @@ Scene with_sticking(Scene scene, const std::vector<std::string>& frictions) {
     for (const FrictionRule& f : scene.frictions) {
         if (!contains(frictions, f.name.text)) continue;
         const std::vector<std::string> forces = sticking_forces(f);
-        const std::vector<Expression> slips = f.across ? std::vector{f.slip, f.across} : std::vector{f.slip};
-        for (std::size_t i = 0; i < slips.size(); ++i) {
+        const std::vector<Expression> sliding_velocities =
+            f.across ? std::vector{f.sliding_velocity, f.across} : std::vector{f.sliding_velocity};
+        for (std::size_t i = 0; i < sliding_velocities.size(); ++i) {
             std::vector<Diagnostic> none;
             ConstraintRule held{.name = {forces[i], f.name.place},
                                 .holonomic = false,
                                 .equation = parse_equality("0 = 0", {}, none),
                                 .multiplier = Name{forces[i], f.name.place}};
-            held.equation.lhs = slips[i];
+            held.equation.lhs = sliding_velocities[i];
             scene.constraints.push_back(std::move(held));
         }
     }

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "alembert/base/argument.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/ode/cost_model.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
@@ -104,8 +104,9 @@ SeriesModule series_of(const Program& program, bool with_work, const RunOptions&
 }
 
 /// Null if the scene has no such form, or if no method that needs it is measured.
-std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module,
-                                              const std::vector<double>& parameters, const RunOptions& wishes) {
+std::shared_ptr<const HamiltonianSystem> canonical_of(const Derived& d, const Module& module,
+                                                      const std::vector<double>& parameters,
+                                                      const RunOptions& wishes) {
     const auto asked = method_named(wishes.method);
     if ((asked && !needs_canonical(*asked)) || not_canonical(d)) return nullptr;
     const Program form = canonical_form(d);
@@ -119,7 +120,7 @@ struct Compilation {
     Source source;
     SolverCode code;
     SeriesModule series = {}, series_with_work = {};
-    std::shared_ptr<const Canonical> canonical = {};
+    std::shared_ptr<const HamiltonianSystem> canonical = {};
 };
 
 Compilation compilation_of(const Derived& d, const Program& program, const Start& start, bool conserved,

@@ -14,14 +14,14 @@ namespace alembert {
 
 namespace {
 
-std::vector<double> times_of(const PhasedMotion& motion, ContactEvent::Kind kind) {
+std::vector<double> times_of(const HybridMotion& motion, ContactEvent::Kind kind) {
     std::vector<double> list;
     for (const ContactEvent& event : motion.contacts)
         if (event.kind == kind) list.push_back(event.time);
     return list;
 }
 
-std::vector<double> kicks_of(const PhasedMotion& motion) {
+std::vector<double> kicks_of(const HybridMotion& motion) {
     std::vector<double> list;
     for (const EventRecord& event : motion.events)
         if (!event.impulse.empty()) list.push_back(event.time);
@@ -30,7 +30,7 @@ std::vector<double> kicks_of(const PhasedMotion& motion) {
 
 /// The difference between two motions; infinite if one lacks a release, a contact coming to rest or a kick of the
 /// other.
-double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
+double apart(const HybridMotion& motion, const HybridMotion& reference) {
     double largest = 0;
     const auto states = [&](const std::vector<double>& a, const std::vector<double>& b) {
         largest = std::max(largest, error_against(b, a));
@@ -77,14 +77,14 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
         options.method = method;
         options.tolerance = tolerance;
         const double before = thread_seconds();
-        PhasedMotion motion = follow(
+        HybridMotion motion = follow(
             contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
             initial, options);
         seconds = thread_seconds() - before;
         return motion;
     };
 
-    const PhasedMotion reference = run(Method::verner98, tolerance::finest_contacts),
+    const HybridMotion reference = run(Method::verner98, tolerance::finest_contacts),
                        other = run(Method::dop853, tolerance::finest_contacts);
     if (reference.failure) throw_failure(*reference.failure);
     Bounces result;
@@ -107,7 +107,7 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
                                                        static_cast<double>(methods.size()));
             Measured one{.method = std::string(name(method)), .tolerance = std::pow(10.0, -decade)};
             std::vector<double> all;
-            PhasedMotion motion;
+            HybridMotion motion;
             for (double sum = 0; all.size() < 3 || (all.size() < 50 && sum < 0.02); sum += seconds) {
                 motion = run(method, *one.tolerance);
                 all.push_back(seconds);

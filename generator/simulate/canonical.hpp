@@ -23,7 +23,7 @@ std::optional<std::string> not_canonical(const Derived& derived);
 /// Throws ModelError with that reason and what to do.
 void need_canonical(const Derived& derived, std::string_view method);
 
-/// L contains the constraints of quaternions; see lib/alembert/ode/hamiltonian.hpp.
+/// L contains the constraints of quaternions; see lib/alembert/ode/hamiltonian_system.hpp.
 Program canonical_form(const Derived& derived);
 
 }  // namespace alembert

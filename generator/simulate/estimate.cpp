@@ -31,7 +31,7 @@ double apart(std::span<const double> a, std::span<const double> b, std::size_t c
 /// Calls `use(i, y)` with values of each component that counts: those on the rows, and the smallest and the
 /// largest at the ends of steps.
 template <typename Use>
-void for_values(const PhasedMotion& motion, std::size_t count, const std::vector<Interval>& reached, Use use) {
+void for_values(const HybridMotion& motion, std::size_t count, const std::vector<Interval>& reached, Use use) {
     for (const Phase& phase : motion.phases)
         for (std::size_t row = 0; row < phase.motion.rows(); ++row)
             for (std::size_t i = 0; i < count; ++i) use(i, phase.motion.state(row)[i]);
@@ -40,7 +40,7 @@ void for_values(const PhasedMotion& motion, std::size_t count, const std::vector
 }
 
 /// How far components of each kind move, for each component (estimate.hpp).
-std::vector<double> extents(const PhasedMotion& motion, const Components& compared,
+std::vector<double> extents(const HybridMotion& motion, const Components& compared,
                             const std::vector<Interval>& reached) {
     constexpr double of_all = 1e-12, of_kind = 1e-10, of_one = 1e-16;
     const std::size_t n = compared.coordinates, count = compared.kinds.size();
@@ -66,7 +66,7 @@ std::vector<double> extents(const PhasedMotion& motion, const Components& compar
 }
 
 /// The largest |y − y(0)| of a coordinate; 0 where it is less than 1e-10 of the largest coordinate.
-double largest_move(const PhasedMotion& motion, std::size_t coordinates, const std::vector<Interval>& reached) {
+double largest_move(const HybridMotion& motion, std::size_t coordinates, const std::vector<Interval>& reached) {
     double moved = 0, largest = 0;
     for_values(motion, coordinates, reached, [&](std::size_t i, double y) {
         moved = std::max(moved, std::abs(y - motion.phases.front().motion.state(0)[i]));
@@ -82,17 +82,17 @@ double apart_of(std::span<const double> a, std::span<const double> b, const std:
 }
 
 /// The difference of the end times, |t − t₂| / max(1, |t₂|).
-double later(const PhasedMotion& a, const PhasedMotion& b) {
+double later(const HybridMotion& a, const HybridMotion& b) {
     return std::abs(a.final_time() - b.final_time()) / std::max(1.0, std::abs(b.final_time()));
 }
 
 /// The separations on the rows that both runs have.
-std::vector<Separation> separations(const PhasedMotion& a, const PhasedMotion& b, std::size_t compared) {
+std::vector<Separation> separations(const HybridMotion& a, const HybridMotion& b, std::size_t compared) {
     struct Row {
         double time;
         std::span<const double> state;
     };
-    const auto rows = [](const PhasedMotion& motion) {
+    const auto rows = [](const HybridMotion& motion) {
         std::vector<Row> list;
         for (const Phase& phase : motion.phases)
             for (std::size_t k = 0; k < phase.motion.rows(); ++k)
@@ -142,7 +142,7 @@ struct End {
 
 /// The end of a motion, and the states before the jumps that are so close to it that they are the same instant for
 /// all that is known of times.
-std::vector<End> ends(const PhasedMotion& motion, double instant) {
+std::vector<End> ends(const HybridMotion& motion, double instant) {
     std::vector<End> result{{motion.final_time(), motion.final_state()}};
     for (std::size_t k = motion.phases.size(); k-- > 1;) {
         const Trajectory& before = motion.phases[k - 1].motion;
@@ -170,7 +170,7 @@ struct Gap {
 /// Compares runs with the first, at their ends.
 class Comparing {
 public:
-    Comparing(const PhasedMotion& motion, const Options& given, const Components& components,
+    Comparing(const HybridMotion& motion, const Options& given, const Components& components,
               std::vector<double> extent)
         : motion_(motion), components_(components), extent_(std::move(extent)) {
         constexpr double times = 10, finest = 1e-12, fixed = 1e-9;
@@ -181,7 +181,7 @@ public:
 
     /// Adds the difference from a run. Where one of the two ends with an impact, or an impulse, and the other just
     /// before it, the states on the same side are compared.
-    void operator()(const PhasedMotion& other) {
+    void operator()(const HybridMotion& other) {
         const std::vector<End> a = ends(motion_, instant_), b = ends(other, instant_);
         Gap gap = between(a[0], b[0]);
         for (std::size_t k = 1; k < a.size(); ++k) take_nearer(gap, between(a[k], b[0]));
@@ -214,7 +214,7 @@ private:
             .scaled = std::max(apart_of(a.state, b.state, extent_), elapsed_ > 0 ? later / elapsed_ : 0)};
     }
 
-    const PhasedMotion& motion_;
+    const HybridMotion& motion_;
     const Components& components_;
     std::vector<double> extent_;
     double elapsed_ = 0, instant_ = 0;
@@ -224,13 +224,13 @@ private:
 
 /// The relative error of a number that is rounded in each step if nothing amplifies it: a random walk, after a few
 /// steps with several roundings each.
-double rounding_of_steps(const PhasedMotion& motion) {
+double rounding_of_steps(const HybridMotion& motion) {
     const double steps = static_cast<double>(motion.statistics.steps);
     return (8 + std::sqrt(steps)) * std::numeric_limits<double>::epsilon();
 }
 
 /// What rounding adds to ErrorEstimate::value.
-double rounding_of(const PhasedMotion& motion, const Components& components) {
+double rounding_of(const HybridMotion& motion, const Components& components) {
     double size = 1;
     const auto& first = motion.phases.front().motion;
     for (std::size_t i = 0; i < components.kinds.size(); ++i) {
@@ -241,7 +241,7 @@ double rounding_of(const PhasedMotion& motion, const Components& components) {
 }
 
 /// What rounding adds to ErrorEstimate::scaled: more digits are lost the less a component moves beside its size.
-double rounding_of(const PhasedMotion& motion, const std::vector<double>& extent) {
+double rounding_of(const HybridMotion& motion, const std::vector<double>& extent) {
     const auto first = motion.phases.front().motion.state(0), last = motion.final_state();
     double size = 0;
     for (std::size_t i = 0; i < extent.size(); ++i)
@@ -260,14 +260,14 @@ bool may_be_rounding(double difference, const Options& given) {
 /// The runs with which the first is compared.
 class Rerunning {
 public:
-    Rerunning(const PhasedMotion& motion, const Rerun& run, const Options& given,
+    Rerunning(const HybridMotion& motion, const Rerun& run, const Options& given,
               const std::vector<double>& initial)
         : motion_(motion), run_(run), given_(given), initial_(initial) {}
 
     /// A run with a tenth of the tolerance or half the step; if that does not reach the same end, with ten times
     /// the tolerance or twice the step. Nothing if neither does. `options` is set to the options of the run. Its
     /// first step differs too, because it does not always depend on the tolerance.
-    std::optional<PhasedMotion> other(Options& options) const {
+    std::optional<HybridMotion> other(Options& options) const {
         options = given_;
         options.budget = std::min(given_.budget, 4 * motion_.statistics.work + 10'000);
         const bool fixed = has_fixed_step(options.method);
@@ -288,7 +288,7 @@ public:
     }
 
     /// A run that differs in its rounding alone, which is several times as large.
-    std::optional<PhasedMotion> disturbed() const {
+    std::optional<HybridMotion> disturbed() const {
         Options options = given_;
         options.budget = std::min(given_.budget, 4 * motion_.statistics.work + 10'000);
         options.disturbed.seed = 5;
@@ -296,7 +296,7 @@ public:
     }
 
     /// A run with steps of at most half the mean length, for motions whose steps do not depend on the tolerance.
-    std::optional<PhasedMotion> with_short_steps(Options options) const {
+    std::optional<HybridMotion> with_short_steps(Options options) const {
         const double elapsed = motion_.final_time() - given_.start;
         options.longest_step = elapsed / (2 * static_cast<double>(motion_.statistics.steps));
         options.disturbed.first_step = 0.5;
@@ -306,8 +306,8 @@ public:
     }
 
 private:
-    std::optional<PhasedMotion> at_same_end(const Options& options) const {
-        PhasedMotion second = run_(options, initial_);
+    std::optional<HybridMotion> at_same_end(const Options& options) const {
+        HybridMotion second = run_(options, initial_);
         const bool stopped =
             // Each ends at its own time.
             motion_.ending == Ending::stopped_by_event && second.ending == motion_.ending;
@@ -316,7 +316,7 @@ private:
         return second;
     }
 
-    const PhasedMotion& motion_;
+    const HybridMotion& motion_;
     const Rerun& run_;
     const Options& given_;
     const std::vector<double>& initial_;
@@ -324,7 +324,7 @@ private:
 
 }  // namespace
 
-ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& given,
+ErrorEstimate error_estimate(const HybridMotion& motion, const Rerun& run, const Options& given,
                              const std::vector<double>& initial, const Components& components) {
     constexpr long few_steps = 16;
     const std::size_t compared = components.kinds.size();
@@ -334,7 +334,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     ErrorEstimate estimate;
     const auto reached = [&] { return components.reached ? components.reached() : std::vector<Interval>(); };
     const std::vector<Interval> by_first = reached();
-    const std::optional<PhasedMotion> second = reruns.other(options);
+    const std::optional<HybridMotion> second = reruns.other(options);
     if (!second) {
         estimate.by = say("no second run came to the same end");
         return estimate;
@@ -356,7 +356,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     estimate.moved = largest_move(motion, components.coordinates, by_first);
     if (fixed && motion.statistics.steps < few_steps) {
         options.step /= 2;
-        const PhasedMotion finer = run(options, initial);
+        const HybridMotion finer = run(options, initial);
         if (finer.ending != Ending::failed)
             estimate.scaled =
                 std::max(*estimate.scaled, margin * apart_of(motion.final_state(), finer.final_state(), extent) +
@@ -368,7 +368,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     for (std::size_t i = 0; i < compared; ++i) moved[i] += beside * (i % 2 == 0 ? 1 : -0.5);
     Options third = given;
     third.budget = 2 * motion.statistics.work + 10'000;
-    const PhasedMotion neighbour = run(third, moved);
+    const HybridMotion neighbour = run(third, moved);
     estimate.lyapunov = exponent(separations(neighbour, motion, compared));
     if (!estimate.lyapunov) return estimate;
     for (const Separation& s : separations(motion, *second, compared))

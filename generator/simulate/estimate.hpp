@@ -61,7 +61,7 @@ struct ErrorEstimate {
     std::optional<double> lyapunov, horizon;  ///< only if errors grow exponentially
 };
 
-using Rerun = std::function<PhasedMotion(const Options&, const std::vector<double>& initial)>;
+using Rerun = std::function<HybridMotion(const Options&, const std::vector<double>& initial)>;
 
 /// The components of the state that count; they come first in the state.
 struct Components {
@@ -73,7 +73,7 @@ struct Components {
     std::function<std::vector<Interval>()> reached = {};
 };
 
-ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& options,
+ErrorEstimate error_estimate(const HybridMotion& motion, const Rerun& run, const Options& options,
                              const std::vector<double>& initial, const Components& compared);
 
 }  // namespace alembert

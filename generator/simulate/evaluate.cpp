@@ -19,7 +19,7 @@
 #include "program/lower/robot_functions.hpp"
 #include "program/without_rounding.hpp"
 #include "scene/text.hpp"
-#include "simulate/held_state.hpp"
+#include "simulate/consistent_mode.hpp"
 #include "simulate/sides.hpp"
 
 namespace alembert {
@@ -55,7 +55,7 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     need_rates(d);
     const ContactView view(d.mechanism);
     check_gaps(d.scene, d.mechanism, view, state, tolerance::closed_gap);
-    const Lasting lasting = contacts_at_rest(view, state, tolerance::closed_gap);
+    const LastingContacts lasting = contacts_at_rest(view, state, tolerance::closed_gap);
     const std::vector<int>& closed = lasting.closed;
     if (lasting.resting.size() > closed.size()) {
         std::vector<std::string> names;
@@ -176,8 +176,8 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
                                                  closed.empty() ? e.by : formalism_for(Need::multipliers).name);
     Program program = with_signs_told(e, lowered(e).program);
     if (const auto jumps = switched(program, SecondRates::wanted)) {
-        std::optional<HeldState> held =
-            jumps->has_frictions() ? held_state(*jumps, state) : standing_state(*jumps, state);
+        std::optional<ConsistentMode> held =
+            jumps->has_frictions() ? consistent_mode(*jumps, state) : standing_state(*jumps, state);
         if (held) {
             program = std::move(held->program);
             state = std::move(held->state);

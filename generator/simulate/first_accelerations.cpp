@@ -7,7 +7,7 @@
 #include "alembert/base/error.hpp"
 #include "analysis/state/diagnose.hpp"
 #include "base/language/say.hpp"
-#include "simulate/held_state.hpp"
+#include "simulate/consistent_mode.hpp"
 
 namespace alembert {
 

@@ -60,7 +60,7 @@ bool InputVariants::collect(const Starts& starts, const Grid& grid) {
     return true;
 }
 
-const std::vector<QuickTime>* InputVariants::quick_times(const Start& start) {
+const std::vector<InputTimeScale>* InputVariants::quick_times(const Start& start) {
     const Key key = key_of(start);
     if (too_many_ && !first_.contains(key)) return nullptr;
     const auto [at, is_new] = known_.try_emplace(key);

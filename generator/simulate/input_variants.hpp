@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-#include "alembert/ode/input_time_scales.hpp"
+#include "alembert/ode/input_time_scale.hpp"
 #include "program/lower/start.hpp"
 #include "scene/grid.hpp"
 
@@ -28,7 +28,7 @@ public:
     InputVariants(const Program& program, const Starts& starts, const Grid& grid, std::optional<double> duration);
 
     /// Null for a variant that is not searched; else valid as long as this is. One thread at a time.
-    const std::vector<QuickTime>* quick_times(const Start& start);
+    const std::vector<InputTimeScale>* quick_times(const Start& start);
 
     bool has_too_many() const { return too_many_; }
 
@@ -44,7 +44,7 @@ private:
     std::optional<double> duration_;
     std::vector<bool> used_;
     std::set<Key> first_;  ///< if there are too many, those that are searched
-    std::map<Key, std::vector<QuickTime>> known_;
+    std::map<Key, std::vector<InputTimeScale>> known_;
     bool too_many_ = false;
 };
 

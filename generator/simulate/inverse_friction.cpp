@@ -33,14 +33,14 @@ FrictionAtState::FrictionAtState(const Mechanism& m, const State<double>& at) {
     const auto n = static_cast<Eigen::Index>(state.q.size());
     const Eigen::Map<const Eigen::VectorXd> u(state.qdot.data(), n);
     for (const Mechanism::Friction& f : m.frictions) {
-        std::vector<ex> slips{f.slip};
-        if (f.across) slips.push_back(*f.across);
-        const auto rows = static_cast<Eigen::Index>(slips.size());
+        std::vector<ex> sliding_velocities{f.sliding_velocity};
+        if (f.across) sliding_velocities.push_back(*f.across);
+        const auto rows = static_cast<Eigen::Index>(sliding_velocities.size());
         std::vector<ex> wanted{f.coefficient * f.normal, f.resting * f.normal};
-        for (const ex& slip : slips) {
-            wanted.push_back(slip);
-            wanted.push_back(m.time_derivative({slip})[0]);
-            for (const ex& entry : m.z->pull_back({{slip, 1}}, m.qdot)) wanted.push_back(entry);
+        for (const ex& sliding_velocity : sliding_velocities) {
+            wanted.push_back(sliding_velocity);
+            wanted.push_back(m.time_derivative({sliding_velocity})[0]);
+            for (const ex& entry : m.z->pull_back({{sliding_velocity, 1}}, m.qdot)) wanted.push_back(entry);
         }
         for (ex& one : wanted) one = m.z->name(one);
         const std::vector<double> value = values_of(m, wanted, state);

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include "alembert/ode/cost_model.hpp"
-#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/taylor.hpp"
 #include "base/language/say.hpp"
+#include "simulate/consistent_mode.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/friction_of_multipliers.hpp"
-#include "simulate/held_state.hpp"
 #include "simulate/sides.hpp"
 #include "simulate/sundials_methods.hpp"
 
@@ -116,7 +116,7 @@ LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
     return *mode->second;
 }
 
-void LoadedModes::shorten_steps(const std::vector<QuickTime>& quick_times) {
+void LoadedModes::shorten_steps(const std::vector<InputTimeScale>& quick_times) {
     quick_times_ = quick_times;
     for (auto& entry : loaded_) entry.second->contact.system.quick_times = quick_times;
 }

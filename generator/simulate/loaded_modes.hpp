@@ -67,7 +67,7 @@ public:
         on_side_change = {};
 
     /// At these times the steps in all modes have to be shorter.
-    void shorten_steps(const std::vector<QuickTime>& quick_times);
+    void shorten_steps(const std::vector<InputTimeScale>& quick_times);
 
     /// To be called before another run from the first state or near it (Projection::begin).
     void begin();
@@ -86,7 +86,7 @@ private:
     const Start& start_;
     const State<double>& first_;
     OnModeStep on_step_;
-    std::vector<QuickTime> quick_times_ = {};
+    std::vector<InputTimeScale> quick_times_ = {};
     std::map<std::vector<int>, std::unique_ptr<LoadedMode>> loaded_;
 };
 

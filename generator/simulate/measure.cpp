@@ -135,17 +135,17 @@ void Workbench::kept(const Options& given, Measured& result) {
     Options options = given;
     const bool work = !parts_.conserved, constrained = !parts_.derived.mechanism.constraints.empty();
     const alembert_solver_table& table = parts_.module.table();
-    Drift drift(table.coordinates, table.speeds, work);
+    EnergyError energy_error(table.coordinates, table.speeds, work);
     double constraint = 0;
     options.on_step = [&](double t, std::span<const double> state, std::span<const double> rate) {
-        drift(table, par_, t, state, rate);
+        energy_error(table, par_, t, state, rate);
         if (constrained) constraint = std::max(constraint, projection_.residual(t, state.data()));
     };
     std::vector<double> initial = parts_.initial;
     if (work) initial.push_back(0);
     projection_.begin(options.start, parts_.initial.data());
     if (integrate(able(work ? with_work_ : rhs_), initial, options).failure) return;
-    result.energy_drift = work ? drift.balance() : drift.energy();
+    result.energy_drift = work ? energy_error.balance() : energy_error.energy();
     result.work = work;
     if (constrained) result.constraint_error = constraint;
 }

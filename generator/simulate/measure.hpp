@@ -14,7 +14,7 @@
 
 #include "alembert/native/module.hpp"
 #include "alembert/ode/energy_error.hpp"
-#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/projection.hpp"
 #include "alembert/ode/series.hpp"
@@ -49,14 +49,14 @@ public:
         const Derived& derived;
         const Module& module;
         SeriesModule series = {}, series_with_work = {};  ///< null if methods that need them are not measured
-        std::shared_ptr<const Canonical> canonical = {};  ///< likewise
+        std::shared_ptr<const HamiltonianSystem> canonical = {};  ///< likewise
         std::vector<double> parameters, initial;
-        std::vector<QuickTime> quick_times = {};  ///< System::quick_times
-        QuickPlaces quick_places = {};            ///< System::quick_places
-        double effort = 0;                        ///< Rhs::effort
-        Slowness slowness = {};                   ///< Rhs::slowness
-        bool conserved = true;                    ///< whether the energy is conserved
-        std::vector<double> reference = {};       ///< coordinates, then rates, at the end; may be empty
+        std::vector<InputTimeScale> quick_times = {};  ///< System::quick_times
+        QuickPlaces quick_places = {};                 ///< System::quick_places
+        double effort = 0;                             ///< Rhs::effort
+        Slowness slowness = {};                        ///< Rhs::slowness
+        bool conserved = true;                         ///< whether the energy is conserved
+        std::vector<double> reference = {};            ///< coordinates, then rates, at the end; may be empty
     };
     explicit Workbench(Parts parts);
 

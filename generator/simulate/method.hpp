@@ -27,7 +27,7 @@
 /// processor (step_times.hpp), and runs of more than some ten milliseconds try methods first (method_trial.hpp),
 /// unless RunOptions::tuning is false. Where the series has to be compiled, which takes longer than most runs, it
 /// is taken below 1e-10 alone; with constraints of position that and verner98 below 1e-12. Methods that choose
-/// their steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
+/// their steps watch for stiffness while they run (stiffness_watch.hpp), change to radau, and come back.
 
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/method_trial.hpp"

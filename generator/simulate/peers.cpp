@@ -12,7 +12,7 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/process.hpp"
-#include "alembert/native/temporary_files.hpp"
+#include "alembert/native/temporary_file.hpp"
 #include "base/language/say.hpp"
 
 namespace alembert {
@@ -46,7 +46,7 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
             .missing = say(
                 "alembert-peers is not beside this program; cmake --build build/release --target alembert-peers "
                 "makes it, where libsundials-dev, libgsl-dev or libboost-dev are installed (Debian)")};
-    const Leftover task(new_file());
+    const TemporaryFile task(new_file());
     {
         std::ofstream out(task.path());
         write_list(out, request.parameters);
@@ -54,7 +54,7 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
         write_list(out, request.tolerances);
         out << fmt::format("{:.17g} {:.17g} {:.17g}\n", request.start, request.duration, request.most_seconds);
     }
-    const Finished finished = run({program.string(), request.object.string(), task.path().string()});
+    const Process finished = run({program.string(), request.object.string(), task.path().string()});
 
     Peers peers;
     std::istringstream lines(finished.output);

@@ -19,17 +19,17 @@ Work work_of(const Mechanism& m) {
 
 /// What is known along a motion.
 struct Account {
-    Drift drift;
+    EnergyError energy_error;
     RunningExtrema along;
 };
 
-Outcome outcome_of(const PhasedMotion& motion, const Account& account, bool along) {
+Outcome outcome_of(const HybridMotion& motion, const Account& account, bool along) {
     return {.time = motion.final_time(),
             .steps = motion.statistics.steps,
             .rejected = motion.statistics.rejected,
             .evaluations = motion.statistics.evaluations,
-            .energy_drift = account.drift.energy(),
-            .work_balance = account.drift.balance(),
+            .energy_drift = account.energy_error.energy(),
+            .work_balance = account.energy_error.balance(),
             .stopped = motion.ending == Ending::stopped_by_event,
             .failure = motion.failure ? motion.failure->message : std::string(),
             .along = along ? account.along.values() : std::vector<double>()};
@@ -106,11 +106,11 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
                               .qdot = {middle, state.end()},
                               .qddot = {}};
     const bool works = work_ == Work::integrated;
-    Account account{.drift = Drift(static_cast<int>(n), static_cast<int>(width - n), works),
+    Account account{.energy_error = EnergyError(static_cast<int>(n), static_cast<int>(width - n), works),
                     .along = RunningExtrema(static_cast<int>(n), static_cast<int>(width))};
     LoadedModes modes(compiled_, start, first,
                       [&](LoadedMode& mode, double t, std::span<const double> y, std::span<const double> rate) {
-                          account.drift(mode.module.table(), mode.par, t, y, rate);
+                          account.energy_error(mode.module.table(), mode.par, t, y, rate);
                           if (along_) account.along(t, y.data(), rate.data());
                       });
     const LoadedMode& free = modes({});
@@ -119,21 +119,21 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
         return as_integrated(contacts.kicks, t, {y, y + 2 * n + states});
     };
     contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
-        account.drift.jump(free.module.table(), free.par, t, integrated(t, before).data(),
-                           integrated(t, after).data(), jump);
+        account.energy_error.jump(free.module.table(), free.par, t, integrated(t, before).data(),
+                                  integrated(t, after).data(), jump);
     };
     contacts.kicks.on_set = [&](double t, const double* before, const double* after) {
-        account.drift.set(free.module.table(), free.par, t, integrated(t, before).data(),
-                          integrated(t, after).data());
+        account.energy_error.set(free.module.table(), free.par, t, integrated(t, before).data(),
+                                 integrated(t, after).data());
     };
     Options options = options_;
     options.start = member.start;
     options.duration = member.duration;
-    modes.shorten_steps(member.quick_times != nullptr ? *member.quick_times : options.quick_times);
+    modes.shorten_steps(quick_times_of(member));
     options.sample = member.duration;  // no rows but the end
     std::vector<double> initial = state;
     if (works) initial.push_back(0);
-    const PhasedMotion motion = follow(
+    const HybridMotion motion = follow(
         contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
         initial, options);
     const std::span<const double> end = motion.final_state();

@@ -32,17 +32,17 @@ public:
     Settling(const Mechanism& m, const Program& p, const QuadStart& start) : m_(m), p_(p), start_(start) {}
 
     struct Rows {
-        std::vector<int> misfit, derivative;  ///< nodes of the residuals, and n derivatives of each
+        std::vector<int> residual, derivative;  ///< nodes of the residuals, and n derivatives of each
         std::vector<Quad> target;
     };
 
     void operator()(const Rows& rows, std::vector<Quad>& q, std::vector<Quad>& u, std::vector<Quad>& x,
                     std::vector<int> free) const {
-        const auto m = static_cast<Eigen::Index>(rows.misfit.size());
+        const auto m = static_cast<Eigen::Index>(rows.residual.size());
         if (m == 0) return;
         if (free.empty())
             for (int i = 0; i < m_.size(); ++i) free.push_back(i);
-        std::vector<int> wanted = rows.misfit;
+        std::vector<int> wanted = rows.residual;
         wanted.insert(wanted.end(), rows.derivative.begin(), rows.derivative.end());
         Tape<Quad> tape(p_, wanted, start_.parameters);
         std::vector<Quad> out(wanted.size());
@@ -51,7 +51,7 @@ public:
             Eigen::MatrixXd J(m, static_cast<Eigen::Index>(free.size()));
             Eigen::VectorXd f(m);
             Quad largest = 0;
-            for (std::size_t k = 0; k < rows.misfit.size(); ++k)
+            for (std::size_t k = 0; k < rows.residual.size(); ++k)
                 largest = std::max(largest, abs(out[k] - rows.target[k]));
             if (!(largest > Quad(1e-33)) || !is_finite(largest)) return;
             for (Eigen::Index k = 0; k < m; ++k) {
@@ -59,7 +59,7 @@ public:
                 f[k] = static_cast<double>((out[row] - rows.target[row]) / largest);
                 for (std::size_t j = 0; j < free.size(); ++j)
                     J(k, static_cast<Eigen::Index>(j)) = static_cast<double>(
-                        out[rows.misfit.size() + row * m_.q.size() + static_cast<std::size_t>(free[j])]);
+                        out[rows.residual.size() + row * m_.q.size() + static_cast<std::size_t>(free[j])]);
             }
             const Eigen::VectorXd step = least_norm(J, f).x;
             if (!step.allFinite()) return;
@@ -78,14 +78,14 @@ private:
 /// The nodes of a group with their derivatives from `rows`; of positions, only those of holonomic constraints.
 Settling::Rows rows_of(const Program& p, const Mechanism& m, Group group, Group rows) {
     Settling::Rows result;
-    const std::vector<int> misfit = p.nodes_of(group), derivative = p.nodes_of(rows);
+    const std::vector<int> residual = p.nodes_of(group), derivative = p.nodes_of(rows);
     const auto n = m.q.size();
-    for (std::size_t k = 0; k < misfit.size(); ++k) {
+    for (std::size_t k = 0; k < residual.size(); ++k) {
         if (group == Group::position && !m.constraints[k].position) continue;
-        result.misfit.push_back(misfit[k]);
+        result.residual.push_back(residual[k]);
         for (std::size_t j = 0; j < n; ++j) result.derivative.push_back(derivative[k * n + j]);
     }
-    result.target.resize(result.misfit.size());
+    result.target.resize(result.residual.size());
     return result;
 }
 
@@ -135,7 +135,7 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
         Settling::Rows rows = rows_of(constraints, m, Group::velocity, Group::row);
         if (speeds_given) {
             const Settling::Rows forms = rows_of(constraints, m, Group::speed, Group::form_row);
-            rows.misfit.insert(rows.misfit.end(), forms.misfit.begin(), forms.misfit.end());
+            rows.residual.insert(rows.residual.end(), forms.residual.begin(), forms.residual.end());
             rows.derivative.insert(rows.derivative.end(), forms.derivative.begin(), forms.derivative.end());
             rows.target.insert(rows.target.end(), speeds.begin(), speeds.end());
         }

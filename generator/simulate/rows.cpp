@@ -92,7 +92,7 @@ bool is_continued(const Trajectory& here, const Trajectory& next) {
 
 }  // namespace
 
-std::vector<EndedEvent> ended_events(const PhasedMotion& motion, const Mechanism& m, LoadedModes& modes) {
+std::vector<EndedEvent> ended_events(const HybridMotion& motion, const Mechanism& m, LoadedModes& modes) {
     std::vector<EndedEvent> result;
     std::vector<std::optional<double>> last(m.events.size());  // where each had a value
     if (m.events.empty()) return result;
@@ -121,7 +121,7 @@ bool has_records(const Mechanism& m) {
                        [](const Mechanism::EventAction& event) { return !event.record.empty(); });
 }
 
-MotionTable rows_at_events(const PhasedMotion& motion, const Derived& d, LoadedModes& modes,
+MotionTable rows_at_events(const HybridMotion& motion, const Derived& d, LoadedModes& modes,
                            const JointReactions* reactions, const State<double>& first) {
     MotionTable table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
     RowWriter writer(table.values, d.mechanism, reactions, first);
@@ -164,7 +164,7 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
     }
 }
 
-MotionTable rows_of(const PhasedMotion& motion, const Derived& d, LoadedModes& modes,
+MotionTable rows_of(const HybridMotion& motion, const Derived& d, LoadedModes& modes,
                     const JointReactions* reactions, const State<double>& first) {
     MotionTable table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
     RowWriter writer(table.values, d.mechanism, reactions, first);

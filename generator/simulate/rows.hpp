@@ -27,14 +27,14 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
 
 /// The table with these columns. If rates jump, there are two rows for the same time, before and after; if only
 /// the equations change, there is one. Reactions are evaluated with the parameters of `first`.
-MotionTable rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
+MotionTable rows_of(const HybridMotion& motion, const Derived& derived, LoadedModes& modes,
                     const JointReactions* reactions, const State<double>& first);
 
 /// Whether an event of the scene tells values.
 bool has_records(const Mechanism& mechanism);
 
 /// The table of the same columns with a row for each event, in the order of the motion, in the state before it.
-MotionTable rows_at_events(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
+MotionTable rows_at_events(const HybridMotion& motion, const Derived& derived, LoadedModes& modes,
                            const JointReactions* reactions, const State<double>& first);
 
 /// An event whose expression has a value at a row of a run and none at the next: it ends between these times,
@@ -43,6 +43,6 @@ struct EndedEvent {
     std::string name;
     double last, first_without;
 };
-std::vector<EndedEvent> ended_events(const PhasedMotion& motion, const Mechanism& mechanism, LoadedModes& modes);
+std::vector<EndedEvent> ended_events(const HybridMotion& motion, const Mechanism& mechanism, LoadedModes& modes);
 
 }  // namespace alembert

@@ -192,7 +192,7 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
     constexpr std::size_t longest = 60;
     std::vector<const Root*> frictions;
     for (const Root& root : program.roots)
-        if (root.group == Group::slip) frictions.push_back(&root);
+        if (root.group == Group::sliding_velocity) frictions.push_back(&root);
     std::vector<std::string> names;
     for (std::size_t k = 0; k < s.functions.size(); ++k) {
         if (!s.frictions[k].empty()) {

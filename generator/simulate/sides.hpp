@@ -10,7 +10,7 @@
 #include <functional>
 #include <memory>
 
-#include "alembert/hybrid/filippov.hpp"
+#include "alembert/hybrid/filippov_system.hpp"
 #include "alembert/native/module.hpp"
 #include "analysis/state/prepared.hpp"
 #include "program/switches.hpp"

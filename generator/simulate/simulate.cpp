@@ -13,7 +13,7 @@
 #include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
-#include "simulate/held_state.hpp"
+#include "simulate/consistent_mode.hpp"
 #include "simulate/method.hpp"
 #include "simulate/regularization.hpp"
 #include "simulate/sides.hpp"
@@ -33,7 +33,7 @@ State<double> state_at(State<double> state, const Failure& failure) {
 }
 
 /// Whether energy was lost: an impact has taken some of it, or an impulse or a set value has changed it.
-bool is_lossy(const PhasedMotion& motion, const Mechanism& m, const Contacts& contacts) {
+bool is_lossy(const HybridMotion& motion, const Mechanism& m, const Contacts& contacts) {
     return std::any_of(motion.events.begin(), motion.events.end(),
                        [&](const EventRecord& e) {
                            return !e.impulse.empty() ||
@@ -47,7 +47,7 @@ bool is_lossy(const PhasedMotion& motion, const Mechanism& m, const Contacts& co
 
 /// The quantities that are watched at every step of the main run, but not in the runs that estimate its error.
 struct Watch {
-    Drift drift;
+    EnergyError energy_error;
     PoseWatch poses = {};
     double constraint_drift = 0;
     long steps = 0;
@@ -116,7 +116,7 @@ public:
             const std::size_t size = 2 * run_.mechanism.q.size() + run_.mechanism.states.size();
             const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + size}),
                                       b = as_integrated(contacts_.kicks, t, {after, after + size});
-            watch.drift.set(free.module.table(), free.par, t, a.data(), b.data());
+            watch.energy_error.set(free.module.table(), free.par, t, a.data(), b.data());
         };
         try_methods(modes);
         integrate(modes);
@@ -168,7 +168,7 @@ private:
     void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state,
               std::span<const double> rate) const {
         watch.near_lock = watch.near_lock || (angles_ && angles_->evenness(state.data()) < to_quaternion);
-        watch.drift(mode.module.table(), mode.par, t, state, rate);
+        watch.energy_error(mode.module.table(), mode.par, t, state, rate);
         if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
         if (mode.contact.system.project)
             watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
@@ -182,7 +182,7 @@ private:
         const std::size_t size = 2 * run_.mechanism.q.size() + run_.mechanism.states.size();
         const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + size}),
                                   b = as_integrated(contacts_.kicks, t, {after, after + size});
-        watch.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
+        watch.energy_error.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
     }
 
     /// Widens what the run has reached by a state.
@@ -193,7 +193,7 @@ private:
             reached_[i] = hull(reached_[i], {state[i], state[i]});
     }
 
-    PhasedMotion followed(LoadedModes& modes, const Options& options, const std::vector<double>& from) {
+    HybridMotion followed(LoadedModes& modes, const Options& options, const std::vector<double>& from) {
         modes.begin();
         reached_.clear();
         return follow(
@@ -239,7 +239,8 @@ private:
     Work work() const { return energy_.conserved ? Work::left_out : Work::integrated; }
 
     Watch fresh_watch() const {
-        return {.drift = Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
+        return {.energy_error =
+                    EnergyError(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
     }
 
     /// Prepares the run with a quaternion near gimbal lock; false if the scene does not allow it.
@@ -274,9 +275,9 @@ private:
         EnergyAccount& account = run_.energy;
         account.conserved = energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_);
         account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
-        account.drift = watch.drift.energy();
-        account.balance = watch.drift.balance();
-        account.jacobi_drift = watch.drift.jacobi();
+        account.drift = watch.energy_error.energy();
+        account.balance = watch.energy_error.balance();
+        account.jacobi_drift = watch.energy_error.jacobi();
         for (const ContactEvent& event : run_.motion.contacts) account.impact_loss += event.energy_loss;
         for (const EventRecord& event : run_.motion.events) account.impulse_work += event.energy_gain;
         run_.constraint_drift = watch.constraint_drift;
@@ -316,11 +317,12 @@ private:
             options_, initial_, components);
         const bool fixed = has_fixed_step(options_.method) && choice_.sundials.empty();
         const bool conserved = run_.energy.conserved;
-        run_.doubts = doubts(
+        run_.distrust_reasons = distrust_reasons(
             {.error = *run_.estimate,
-             .energy = conserved ? std::optional(watch.drift.energy_of_motion()) : std::nullopt,
-             .balance = conserved ? std::nullopt : std::optional(watch.drift.balance_of_motion()),
-             .jacobi = run_.energy.jacobi_conserved ? std::optional(watch.drift.jacobi_of_motion()) : std::nullopt,
+             .energy = conserved ? std::optional(watch.energy_error.energy_of_motion()) : std::nullopt,
+             .balance = conserved ? std::nullopt : std::optional(watch.energy_error.balance_of_motion()),
+             .jacobi = run_.energy.jacobi_conserved ? std::optional(watch.energy_error.jacobi_of_motion())
+                                                    : std::nullopt,
              .constraints = watch.constraint_drift > 0
                                 ? watch.constraint_drift / size_of(run_.motion, coordinates + speeds)
                                 : 0,
@@ -389,7 +391,7 @@ private:
     State<double> first_;
     MethodChoice choice_;
     Options options_;
-    std::vector<QuickTime> quick_times_;
+    std::vector<InputTimeScale> quick_times_;
     std::optional<ContactView> view_;
     std::optional<KickView> kicks_;
     Contacts contacts_;

@@ -7,7 +7,7 @@
 ///     const Run run = simulate(scene, {.duration = 10, .tolerance = 1e-12});
 ///     run.final_coordinates[0];          // in the scene's unit, at run.motion.final_time()
 ///     *run.estimate->value;              // the estimated error
-///     run.doubts.empty();                // nothing speaks against trusting it
+///     run.distrust_reasons.empty();      // nothing speaks against trusting it
 ///
 /// The scene is derived, turned into code (solver_code.hpp) and integrated; contact modes
 /// are treated in this way when the motion first reaches them.
@@ -49,7 +49,7 @@ struct Solver {
 };
 
 struct Run : Derived {
-    PhasedMotion motion = {};
+    HybridMotion motion = {};
     std::string why_method = {};  ///< the reason in words; empty if the method was given
     Solver solver = {};
     std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds only if the scene has its own
@@ -80,7 +80,7 @@ struct Run : Derived {
     EnergyAccount energy = {};
     double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};
-    std::vector<std::string> doubts = {};  ///< reasons why the result should not be trusted
+    std::vector<std::string> distrust_reasons = {};  ///< reasons why the result should not be trusted
     /// The values that were moved at the start so that the constraints hold.
     std::vector<std::string> adjusted = {};
     std::optional<Sensitivity> sensitivity = {};  ///< if it was requested, and the motion did not fail

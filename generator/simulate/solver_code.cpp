@@ -108,7 +108,7 @@ SeriesModule compiled_series(const Program& program, bool with_work, const RunOp
 
 SolverCode compiled_text(const Program& program, const std::string& text, const std::string& name,
                          const RunOptions& wishes) {
-    const Compiled compiled = compile(text, name, compile_options(wishes));
+    const Compilation compiled = compile(text, name, compile_options(wishes));
     SolverCode code{.module = load(compiled.object), .from_cache = compiled.from_cache, .object = compiled.object};
     code.module.tell_needed_state(program.needed_state());
     return code;

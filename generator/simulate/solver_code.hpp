@@ -15,7 +15,7 @@
 /// two is faster depends on the processor too: it is measured then (faster_code.hpp), and the run goes over if it
 /// is the compiled one. Momenta (`rattle`) and what runs after a motion was found stiff do not go over.
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "codegen/machine/memory_series.hpp"
 #include "codegen/machine/memory_series_packs.hpp"
 #include "codegen/machine/memory_solver.hpp"
@@ -63,7 +63,7 @@ SolverCode batch_code(const Program& program, const std::string& text, const Run
 
 struct BatchSeries {
     SeriesModule module;
-    std::shared_ptr<const SeriesPacks> packs;  ///< null without code in memory for eight systems
+    std::shared_ptr<const PackSeries> packs;  ///< null without code in memory for eight systems
 };
 
 /// The power series of a sweep, likewise. Compiled series are for one system alone.
@@ -72,8 +72,8 @@ BatchSeries batch_series(const Program& program, bool with_work, const RunOption
 /// "auto", "memory" or "compiled": what is wished for, whatever comes of it here.
 std::string wished_code(const RunOptions& wishes);
 
-/// Whether compiling pays for a run that has taken `effort` (in predicted ns, as in pace.hpp) in memory; of the
-/// functions, or of the power series.
+/// Whether compiling pays for a run that has taken `effort` (in predicted ns, as in alembert/ode/cost_model.hpp)
+/// in memory; of the functions, or of the power series.
 bool pays_to_compile(const Program& program, double effort);
 bool pays_to_compile(const alembert_series_table& series, double effort);
 

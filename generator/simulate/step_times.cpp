@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "alembert/native/compile.hpp"
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/compilation.hpp"
+#include "alembert/native/registers.hpp"
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/taylor.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// cvode and ida of SUNDIALS as methods of `simulate`, if the program was built with them (peers/backend.hpp).
+/// cvode and ida of SUNDIALS as methods of `simulate`, if the program was built with them (plugins/backend.hpp).
 ///
 ///     if (is_sundials(name)) system.by = sundials_integrator(name, module, parameters);
 

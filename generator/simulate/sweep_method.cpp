@@ -19,7 +19,7 @@ namespace {
 /// for one of eight motions, in ns (tests/bench/sweep.sh), and the quotient of the lengths of steps for the same
 /// error at the end, which grows from decade to decade as in method.cpp.
 bool is_series_faster_in_packs(const Program& program, bool conserved, double tolerance) {
-    const std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program, !conserved);
+    const std::shared_ptr<const PackSeries> packs = memory_series_packs(program, !conserved);
     if (!packs) return false;
     constexpr double rest = 45;  // of a step of taylor, besides its series
     const int order = taylor_order(tolerance, packs->order_cost, packs->product_cost);

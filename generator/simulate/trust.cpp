@@ -19,9 +19,9 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 constexpr double two_digits = 1e-2, two_digits_of_energy = 2e-2, near = 0.1;
 
 /// The shortest time in which an input changes, apart from switches, which a step cannot pass over unnoticed.
-const QuickTime* quickest(const std::vector<QuickTime>& inputs) {
-    const QuickTime* found = nullptr;
-    for (const QuickTime& q : inputs)
+const InputTimeScale* quickest(const std::vector<InputTimeScale>& inputs) {
+    const InputTimeScale* found = nullptr;
+    for (const InputTimeScale& q : inputs)
         if (!q.is_switch && (found == nullptr || q.step < found->step)) found = &q;
     return found;
 }
@@ -52,7 +52,7 @@ std::optional<Conditioning> conditioning(const Rows& M, Rows A) {
 
 }  // namespace
 
-std::vector<std::string> doubts(const Evidence& e) {
+std::vector<std::string> distrust_reasons(const Evidence& e) {
     std::vector<std::string> reasons;
     if (!e.error.value) reasons.push_back(say("{}, so the error is unknown", e.error.by));
     const double value = e.error.value.value_or(0), scaled = e.error.scaled.value_or(0);
@@ -88,7 +88,7 @@ std::vector<std::string> doubts(const Evidence& e) {
                 "distance of {:.1e}, where rates magnify an error of {:.1e} to {:.1e}; other "
                 "coordinates, or a quaternion, have no such pose there",
                 distance, e.precision, distance > 0 ? e.precision / distance : HUGE_VAL));
-    if (const QuickTime* const q = quickest(e.inputs); q != nullptr && e.fixed_step > q->step)
+    if (const InputTimeScale* const q = quickest(e.inputs); q != nullptr && e.fixed_step > q->step)
         reasons.push_back(
             say("an input changes within {:.2g} s near t = {:.6g}, which steps of {:g} s may pass over; "
                 "take shorter ones, or a method "
@@ -125,7 +125,7 @@ Components components_of(const Program& program, std::size_t coordinates, std::s
     return result;
 }
 
-double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const PoseWatch& poses) {
+double most_singular(const HybridMotion& motion, const LoadedMode& mode, const PoseWatch& poses) {
     constexpr int most_speeds = 40;  // for larger matrices the eigenvalues would take as long as the run
     const alembert_solver_table& table = mode.module.table();
     if (table.mass_forcing == nullptr || table.speeds > most_speeds || table.speeds < 2) return 1;
@@ -156,7 +156,7 @@ double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const P
     return largest > 0 ? smallest / largest : 1;
 }
 
-double size_of(const PhasedMotion& motion, std::size_t count) {
+double size_of(const HybridMotion& motion, std::size_t count) {
     double largest = 0;
     for (const Phase& phase : motion.phases)
         for (std::size_t row = 0; row < phase.motion.rows(); ++row)

@@ -4,7 +4,7 @@
 /// Decides from all measurements of a run whether two digits of it can be trusted.
 ///
 ///     const Evidence evidence{.error = estimate, .energy = drift.energy_of_motion(), …};
-///     const std::vector<std::string> reasons = doubts(evidence);
+///     const std::vector<std::string> reasons = distrust_reasons(evidence);
 ///     reasons.empty();         // trusted
 ///
 /// A run is not trusted if one of these is above its limit:
@@ -30,7 +30,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/ode/input_time_scales.hpp"
+#include "alembert/ode/input_time_scale.hpp"
 #include "simulate/estimate.hpp"
 #include "simulate/loaded_modes.hpp"
 
@@ -40,17 +40,17 @@ namespace alembert {
 struct Evidence {
     const ErrorEstimate& error;
     std::optional<double> energy = {}, balance = {},
-                          jacobi = {};  ///< in units of the energy of the motion (drift.hpp)
+                          jacobi = {};  ///< in units of the energy of the motion (alembert/ode/energy_error.hpp)
     double constraints = 0;  ///< the largest |f|, |A q' + b|, in units of the largest coordinate or rate
     double singular = 1;     ///< δ² above
     double precision = 0;    ///< e above
     double fixed_step = 0;   ///< in s; 0 if the method chose its steps
-    std::vector<QuickTime> inputs = {};
+    std::vector<InputTimeScale> inputs = {};
 };
 
 /// The reasons as sentences without capital and full stop, the most important first. If there are none, the run is
 /// trusted.
-std::vector<std::string> doubts(const Evidence& evidence);
+std::vector<std::string> distrust_reasons(const Evidence& evidence);
 
 /// Collects poses of a run to find the most singular one. M is evaluated where a rate is at its largest, because
 /// rates are large near such a pose.
@@ -72,9 +72,9 @@ Components components_of(const Program& program, std::size_t coordinates, std::s
 
 /// δ² above, from M at the rows and where a rate was at its largest; 1 if M is not available or there are more
 /// than 40 speeds.
-double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const PoseWatch& poses);
+double most_singular(const HybridMotion& motion, const LoadedMode& mode, const PoseWatch& poses);
 
 /// The largest size of the first `count` components on the rows.
-double size_of(const PhasedMotion& motion, std::size_t count);
+double size_of(const HybridMotion& motion, std::size_t count);
 
 }  // namespace alembert

@@ -86,7 +86,7 @@ std::optional<PowerSums> hamiltonian(const Local& local, const ex& H) {
     const Monomials monomials(4, 4);
     const std::vector<int> held(2 * n, -1);
     State<Expansion> state = local.state_at(local.point, nullptr, held);
-    CertainVector p0;
+    RealBallVector p0;
     const std::vector<Expansion> at_point = interpret(program, state);
     for (std::size_t i = 0; i < n; ++i) p0.push_back(at_point[nodes[n + i]].value());
     for (int k = 0; k < 2; ++k) state.q[free[k]] = Expansion::variable(monomials, k, local.point.q[free[k]]);

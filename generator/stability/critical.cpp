@@ -34,7 +34,7 @@ int count(const std::vector<RootOf>& roots, Side side) {
         std::count_if(roots.begin(), roots.end(), [&](const RootOf& r) { return r.side == side; }));
 }
 
-Eigen::MatrixXd numbers(const CertainMatrix& m) {
+Eigen::MatrixXd numbers(const RealBallMatrix& m) {
     Eigen::MatrixXd result(m.rows, m.columns);
     for (int i = 0; i < m.rows; ++i)
         for (int j = 0; j < m.columns; ++j) result(i, j) = m(i, j).number();
@@ -102,8 +102,8 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
         if (std::abs((*right)(i, 0).number()) > std::abs((*right)(pinned, 0).number())) pinned = i;
         if (std::abs((*left)(i, 0).number()) > std::abs((*left)(outside, 0).number())) outside = i;
     }
-    CertainMatrix bordered(n + 1, n + 1);
-    Certain scale = 0;
+    RealBallMatrix bordered(n + 1, n + 1);
+    RealBall scale = 0;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) bordered(i, j) = local.A(i, j);
         scale += (*left)(i, 0) * (*right)(i, 0);
@@ -119,11 +119,11 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
     for (int order = 2; order <= highest_degree; ++order) {
         power = power * c;
         const std::vector<Expansion> F = field(local, x, order);
-        CertainMatrix known(n + 1, 1);
+        RealBallMatrix known(n + 1, 1);
         for (int i = 0; i < n; ++i) known(i, 0) = -F[i].coefficient(order);
         const auto step = solution(bordered, known);
         if (!step) return {};
-        const Certain G = -(*step)(n, 0) * (*left)(outside, 0) / scale;
+        const RealBall G = -(*step)(n, 0) * (*left)(outside, 0) / scale;
         if (!G.is_zero()) {
             if (!G.sign()) return {};
             const bool attracts = order % 2 == 1 && G.sign() == -1;
@@ -211,17 +211,19 @@ bool has_family(const Local& local, const Eigen::MatrixXd& V) {
 bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
     const int n = local.A.rows, p = static_cast<int>(local.split.u.size());
     const std::size_t ne = local.essential.size();
-    const auto moved = [&](CertainPoint at, const Eigen::VectorXd& by) {
-        const auto shift = [](Certain& x, double d) { x = Certain::about(x.middle() + static_cast<Quad>(d), 0); };
+    const auto moved = [&](RealBallPoint at, const Eigen::VectorXd& by) {
+        const auto shift = [](RealBall& x, double d) {
+            x = RealBall::about(x.middle() + static_cast<Quad>(d), 0);
+        };
         for (std::size_t k = 0; k < ne; ++k)
             shift(at.q[local.split.q[local.essential[k]]], by[static_cast<Eigen::Index>(k)]);
         for (int j = 0; j < p; ++j) shift(at.u[local.split.u[j]], by[static_cast<Eigen::Index>(ne) + j]);
         for (int round = 0; round < 30; ++round) {
-            const CertainTangent t = local.tangent_at(at);
+            const RealBallTangent t = local.tangent_at(at);
             double largest_step = 0;
-            const auto follow = [&](Certain& x, const Certain& d) {
+            const auto follow = [&](RealBall& x, const RealBall& d) {
                 largest_step = std::max(largest_step, std::abs(d.number()));
-                x = Certain::about(x.middle() + d.middle(), 0);
+                x = RealBall::about(x.middle() + d.middle(), 0);
             };
             for (std::size_t k = 0; k < local.split.q_dependent.size(); ++k)
                 follow(at.q[local.split.q_dependent[k]], t.to_position[k]);
@@ -231,7 +233,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
         }
         return at;
     };
-    const auto rate = [&](const CertainTangent& t) {
+    const auto rate = [&](const RealBallTangent& t) {
         Eigen::VectorXd F(n);
         for (std::size_t k = 0; k < ne; ++k)
             F[static_cast<Eigen::Index>(k)] = t.coordinate_rates[local.split.q[local.essential[k]]].number();
@@ -248,7 +250,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
             if (!is_near && !acts_nearby) continue;
             Eigen::VectorXd direction(zeros);
             for (double& one : direction) one = normal(random);
-            CertainPoint at = moved(local.point, step * V.rightCols(zeros) * direction.normalized());
+            RealBallPoint at = moved(local.point, step * V.rightCols(zeros) * direction.normalized());
             double residual = 1;
             for (int round = 0; round < 60 && residual > 1e-31; ++round) {
                 const Eigen::VectorXd F = rate(local.tangent_at(at));

@@ -14,7 +14,7 @@
 #include <functional>
 #include <optional>
 
-#include "analysis/exact/square_points.hpp"
+#include "analysis/exact/quadratic_residue_points.hpp"
 #include "stability/linear/tangent.hpp"
 
 namespace alembert {
@@ -60,7 +60,7 @@ private:
 
     const Residuals& residuals_;
     const Split& split_;
-    SquarePoints usable_;
+    QuadraticResiduePoints usable_;
     int finer_;
 };
 

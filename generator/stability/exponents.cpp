@@ -10,7 +10,7 @@
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/base/random.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "analysis/state/assemble.hpp"
@@ -34,7 +34,7 @@ Rhs emitted(const Derived& d, const Start& start) {
     if (!program)
         throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
     const Source source = emit(program->program);
-    const Compiled compiled = compile(source.text, program->program.name + "_jacobian", {});
+    const Compilation compiled = compile(source.text, program->program.name + "_jacobian", {});
     return make_rhs(load(compiled.object), start.parameters);
 }
 

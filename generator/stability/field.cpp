@@ -44,7 +44,7 @@ void follow_constraints(const Local& local, State<Expansion>& state, int degree)
         std::vector<int> all;
         for (int k = 0; k < r.n + r.s; ++k) all.push_back(k);
         const auto value = interpret(r.program, local.state_at(local.point, &linear, all));
-        CertainMatrix result(static_cast<int>(nodes.size()), static_cast<int>(columns.size()));
+        RealBallMatrix result(static_cast<int>(nodes.size()), static_cast<int>(columns.size()));
         for (int i = 0; i < result.rows; ++i)
             for (int j = 0; j < result.columns; ++j)
                 result(i, j) = value[nodes[i]].coefficient(1 + static_cast<int>(offset) + columns[j]);
@@ -53,8 +53,8 @@ void follow_constraints(const Local& local, State<Expansion>& state, int degree)
     const auto solve_for = [&](const std::vector<int>& nodes, const std::vector<int>& unknowns, std::size_t offset,
                                std::vector<Expansion>& values) {
         if (unknowns.empty()) return;
-        const CertainMatrix J = matrix(nodes, offset, unknowns);
-        const auto inverse = solution(J, CertainMatrix::identity(J.rows));
+        const RealBallMatrix J = matrix(nodes, offset, unknowns);
+        const auto inverse = solution(J, RealBallMatrix::identity(J.rows));
         if (!inverse) throw NotAnalytic(say("the constraints are not surely regular"));
         for (int round = 0; round < degree; ++round) {
             const std::vector<Expansion> value = interpret(r.program, state);
@@ -102,7 +102,7 @@ std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x
     return result;
 }
 
-Certain state_value(const Local& local, std::size_t k) {
+RealBall state_value(const Local& local, std::size_t k) {
     const std::size_t ne = local.essential.size();
     return k < ne ? local.point.q[local.split.q[local.essential[k]]] : local.point.u[local.split.u[k - ne]];
 }

@@ -16,6 +16,6 @@ State<Expansion> state_of_series(const Local& local, const std::vector<Expansion
 std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x, int degree);
 
 /// The value at the point of state k.
-Certain state_value(const Local& local, std::size_t k);
+RealBall state_value(const Local& local, std::size_t k);
 
 }  // namespace alembert

@@ -120,13 +120,13 @@ std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const Periodi
                                static_cast<double>(motion.t), {});
     const int size = static_cast<int>(periodic.independent(motion).size());
     const double rounding = periodic.constrained() ? basis_rounding : 0;
-    CertainMatrix Phi(size, size);
+    RealBallMatrix Phi(size, size);
     for (int c = 0; c < size; ++c)
         for (int i = 0; i < size; ++i) {
             const auto k = static_cast<std::size_t>(c * size + i);
             const double unsure = static_cast<double>(abs(good.Phi[k] - rough.Phi[k])) + 1e-24 +
                                   rounding * std::max(1.0, std::abs(static_cast<double>(good.Phi[k])));
-            Phi(i, c) = Certain::about(good.Phi[k], unsure);
+            Phi(i, c) = RealBall::about(good.Phi[k], unsure);
         }
     std::vector<RootOf> roots = roots_of(characteristic(Phi));
     std::sort(roots.begin(), roots.end(),
@@ -166,7 +166,7 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
         throw ModelError(
             say("no motion of period {:.10g} is found from this state: after Newton's method the state "
                 "misses itself by {:.3g}; give a state and a period nearer to one",
-                static_cast<double>(motion.period), motion.misfit));
+                static_cast<double>(motion.period), motion.closure_error));
     FloquetResult result;
     const std::vector<RootOf> roots = multipliers_of(periodic, motion);
     for (const RootOf& root : roots) {

@@ -185,8 +185,8 @@ std::vector<ex> constant_angular_momenta(const Local& local) {
 /// first.
 struct EnergyForms {
     int size = 0;
-    std::vector<CertainVector> gradient;
-    std::vector<CertainMatrix> second;
+    std::vector<RealBallVector> gradient;
+    std::vector<RealBallMatrix> second;
 };
 
 EnergyForms forms_of(const Local& local, const std::vector<ex>& functions) {
@@ -197,15 +197,15 @@ EnergyForms forms_of(const Local& local, const std::vector<ex>& functions) {
     for (int i = 0; i < r.s; ++i) variables.push_back(result.size++);
     const Monomials monomials(result.size, 2);
     const auto take = [&](const Expansion& value) {
-        CertainVector gradient;
-        CertainMatrix second(result.size, result.size);
+        RealBallVector gradient;
+        RealBallMatrix second(result.size, result.size);
         for (int i = 0; i < result.size; ++i) {
             gradient.push_back(value.coefficient(1 + i));
             for (int j = 0; j <= i; ++j) {
                 Monomials::Exponents exponents(static_cast<std::size_t>(result.size), 0);
                 ++exponents[i];
                 ++exponents[j];
-                const Certain c = value.coefficient(monomials.index(exponents));
+                const RealBall c = value.coefficient(monomials.index(exponents));
                 second(i, j) = second(j, i) = i == j ? c + c : c;
             }
         }
@@ -224,7 +224,7 @@ bool definite(const Local& local, const std::vector<ex>& functions, bool either_
     const EnergyForms forms = forms_of(local, functions);
     const int n = forms.size, count = static_cast<int>(forms.gradient.size());
     // Multipliers: columns of `balance` are gradients, that of H last.
-    CertainMatrix balance(n, count), level(count - 1, n);
+    RealBallMatrix balance(n, count), level(count - 1, n);
     for (int i = 0; i < n; ++i)
         for (int k = 0; k < count; ++k) {
             balance(i, (k + count - 1) % count) = forms.gradient[k][i];
@@ -241,22 +241,22 @@ bool definite(const Local& local, const std::vector<ex>& functions, bool either_
             free.push_back(c);
     if (particular < 0) return false;
     const auto combined = [&](int c) {
-        CertainMatrix sum(n, n);
+        RealBallMatrix sum(n, n);
         for (int k = 0; k < count; ++k) {
-            const Certain& factor = (*multipliers)((k + count - 1) % count, c);
+            const RealBall& factor = (*multipliers)((k + count - 1) % count, c);
             if (!factor.is_zero()) sum = sum + factor * forms.second[k];
         }
         return transposed(*Z) * sum * *Z;
     };
-    std::vector<CertainMatrix> more;
+    std::vector<RealBallMatrix> more;
     for (const int c : free) more.push_back(combined(c));
     for (const int sign : {1, -1}) {
         if (sign < 0 && !either_sign) break;
-        CertainMatrix Q = Certain(sign) * combined(particular);
+        RealBallMatrix Q = RealBall(sign) * combined(particular);
         const auto s = definite_combination(Q, more);
         if (!s) continue;
         for (std::size_t k = 0; k < s->size(); ++k)
-            Q = Q + Certain(Rational(cln::rational(cln::cl_DF((*s)[k])))) * more[k];
+            Q = Q + RealBall(Rational(cln::rational(cln::cl_DF((*s)[k])))) * more[k];
         const auto signs = inertia(Q);
         if (signs && signs->positive == Q.rows) return true;
     }
@@ -280,9 +280,9 @@ PowerSign power_sign(const Local& local) {
     m.z->adopt(*energy.z);
     result.H = energy.jacobi;
     const int p = static_cast<int>(local.split.u.size());
-    result.damping = CertainMatrix(p, p);
+    result.damping = RealBallMatrix(p, p);
     for (const Mechanism::Constraint& c : m.constraints)
-        if (!is_identically_zero(c.drift, m)) return result;
+        if (!is_identically_zero(c.offset, m)) return result;
     if (!holds_none(result.H, local)) return result;
     if (energy.jacobi_conserved) {
         result.known = result.is_zero = true;
@@ -303,19 +303,19 @@ PowerSign power_sign(const Local& local) {
     std::vector<int> variables;
     for (int k = 0; k < all; ++k) variables.push_back(k);
     const Expansion P = local.series({power}, squares, variables)[0];
-    CertainMatrix D(r.s, r.s);
+    RealBallMatrix D(r.s, r.s);
     for (int i = 0; i < r.s; ++i)
         for (int j = 0; j <= i; ++j) {
             Monomials::Exponents exponents(static_cast<std::size_t>(all), 0);
             ++exponents[r.n + i];
             ++exponents[r.n + j];
-            const Certain c = P.coefficient(squares.index(exponents));
-            D(i, j) = D(j, i) = i == j ? -c : -c * Certain(Rational(1) / 2);
+            const RealBall c = P.coefficient(squares.index(exponents));
+            D(i, j) = D(j, i) = i == j ? -c : -c * RealBall(Rational(1) / 2);
         }
     std::vector<int> of_speeds, columns;
     for (int i = 0; i < r.s; ++i) of_speeds.push_back(r.n + i);
     for (int j = 0; j < p; ++j) columns.push_back(static_cast<int>(local.split.q.size()) + j);
-    const CertainMatrix U = local.tangent.along.part(of_speeds, columns);
+    const RealBallMatrix U = local.tangent.along.part(of_speeds, columns);
     result.damping = transposed(U) * D * U;
     if (each_brakes(local)) {
         result.known = true;

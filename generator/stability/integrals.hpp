@@ -19,9 +19,9 @@ namespace alembert {
 
 /// The effect of loads outside V on H along a motion.
 struct PowerSign {
-    bool known = false;     ///< whether it is known that dH/dt is never positive near the state
-    bool is_zero = false;   ///< whether H is conserved
-    CertainMatrix damping;  ///< of −dH/dt = q'ᵀ D q' + …, over split.u; zeros if H is conserved
+    bool known = false;      ///< whether it is known that dH/dt is never positive near the state
+    bool is_zero = false;    ///< whether H is conserved
+    RealBallMatrix damping;  ///< of −dH/dt = q'ᵀ D q' + …, over split.u; zeros if H is conserved
     GiNaC::ex H;
 };
 PowerSign power_sign(const Local& local);

@@ -33,14 +33,14 @@ std::vector<int> up_to(int n, int from = 0) {
 }
 
 template <typename F>
-CertainMatrix filled(int rows, int columns, const F& value) {
-    CertainMatrix result(rows, columns);
+RealBallMatrix filled(int rows, int columns, const F& value) {
+    RealBallMatrix result(rows, columns);
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) result(i, j) = value(i, j);
     return result;
 }
 
-CertainMatrix solved(const CertainMatrix& A, const CertainMatrix& B, const std::string& what) {
+RealBallMatrix solved(const RealBallMatrix& A, const RealBallMatrix& B, const std::string& what) {
     if (A.rows == 0) return B;
     auto result = solution(A, B);
     if (!result) throw NotAnalytic(say("{} is not surely regular", what));
@@ -62,7 +62,7 @@ std::vector<int> joined_by(const std::vector<std::vector<int>>& sets, int member
     return result;
 }
 
-CertainMatrix column(const CertainVector& v) {
+RealBallMatrix column(const RealBallVector& v) {
     return filled(static_cast<int>(v.size()), 1, [&](int i, int) { return v[i]; });
 }
 
@@ -200,22 +200,22 @@ void Local::find_point(const ExactOverrides& exact_at) {
         const std::vector<Expansion> in_rates = interpret(forms, state_at(point, nullptr, {}));
         point.u.clear();
         for (int i = 0; i < residuals.s; ++i) {
-            Certain exact = in_rates[nodes[i]].value();
+            RealBall exact = in_rates[nodes[i]].value();
             for (std::size_t k = 0; k < m.speeds.size(); ++k)
                 if (m.speeds[k].start && equations.u[i].is_equal(m.speeds[k].u)) exact = start.speeds[k];
             point.u.push_back(exact_or(exact, in_use.qdot[i]));
         }
     }
     if (residuals.inputs.empty()) return;
-    point.inputs.assign(static_cast<std::size_t>(residuals.inputs.back()) + 1, Certain(0));
+    point.inputs.assign(static_cast<std::size_t>(residuals.inputs.back()) + 1, RealBall(0));
     State<Expansion> at_start = state_at(point, nullptr, {});
     const std::vector<Expansion> all = interpret(residuals.program, at_start);
     for (const int k : residuals.inputs) point.inputs[k] = all[residuals.input_values[k]].value();
 }
 
-State<Expansion> Local::state_at(const CertainPoint& at, const Monomials* monomials,
+State<Expansion> Local::state_at(const RealBallPoint& at, const Monomials* monomials,
                                  const std::vector<int>& variables) const {
-    const auto entry = [&](const Certain& value, std::size_t which) {
+    const auto entry = [&](const RealBall& value, std::size_t which) {
         return monomials && variables[which] >= 0 ? Expansion::variable(*monomials, variables[which], value)
                                                   : Expansion(value);
     };
@@ -228,9 +228,9 @@ State<Expansion> Local::state_at(const CertainPoint& at, const Monomials* monomi
 namespace {
 
 /// The algebra of stability/linear/tangent.cpp in numbers with bounds.
-class CertainAlgebra {
+class RealBallAlgebra {
 public:
-    CertainAlgebra(const Residuals& r, const Split& split, std::vector<Expansion> value)
+    RealBallAlgebra(const Residuals& r, const Split& split, std::vector<Expansion> value)
         : r_(r),
           split_(split),
           value_(std::move(value)),
@@ -239,7 +239,7 @@ public:
           nr_(static_cast<int>(split.q.size())),
           p_(static_cast<int>(split.u.size())) {}
 
-    CertainTangent run() {
+    RealBallTangent run() {
         result_.position = values(r_.position);
         result_.velocity = values(r_.velocity);
         add_directions();
@@ -251,19 +251,19 @@ public:
     }
 
 private:
-    CertainVector values(const std::vector<int>& nodes) const {
-        CertainVector result;
+    RealBallVector values(const std::vector<int>& nodes) const {
+        RealBallVector result;
         for (const int node : nodes) result.push_back(value_[node].value());
         return result;
     }
-    CertainMatrix jacobian(const std::vector<int>& nodes) const {
+    RealBallMatrix jacobian(const std::vector<int>& nodes) const {
         return filled(static_cast<int>(nodes.size()), n_ + s_,
                       [&](int i, int k) { return value_[nodes[i]].coefficient(k + 1); });
     }
     /// A x = right, with independent ones 0.
-    CertainMatrix particular(const CertainMatrix& right) const {
-        CertainMatrix spread(s_, right.columns);
-        const CertainMatrix x = solved(nu_dependent_, right, say("the velocity constraints"));
+    RealBallMatrix particular(const RealBallMatrix& right) const {
+        RealBallMatrix spread(s_, right.columns);
+        const RealBallMatrix x = solved(nu_dependent_, right, say("the velocity constraints"));
         for (std::size_t k = 0; k < split_.u_dependent.size(); ++k)
             for (int j = 0; j < right.columns; ++j) spread(split_.u_dependent[k], j) = x(static_cast<int>(k), j);
         return spread;
@@ -271,53 +271,53 @@ private:
 
     /// The columns r, w of `along`, U, and Newton's steps.
     void add_directions() {
-        CertainMatrix& along = result_.along;
+        RealBallMatrix& along = result_.along;
         along = filled(n_ + s_, nr_ + p_, [&](int i, int j) {
-            return Certain(j < nr_ ? i == split_.q[j] : i == n_ + split_.u[j - nr_] ? 1 : 0);
+            return RealBall(j < nr_ ? i == split_.q[j] : i == n_ + split_.u[j - nr_] ? 1 : 0);
         });
-        const CertainMatrix phi = jacobian(r_.position), nu = jacobian(r_.velocity);
-        const CertainMatrix phi_dependent = phi.part(up_to(r_.holonomic), split_.q_dependent);
-        const CertainMatrix follow = solved(phi_dependent, Certain(-1) * (phi * along), say("the constraints"));
+        const RealBallMatrix phi = jacobian(r_.position), nu = jacobian(r_.velocity);
+        const RealBallMatrix phi_dependent = phi.part(up_to(r_.holonomic), split_.q_dependent);
+        const RealBallMatrix follow = solved(phi_dependent, RealBall(-1) * (phi * along), say("the constraints"));
         for (std::size_t k = 0; k < split_.q_dependent.size(); ++k)
             for (int j = 0; j < nr_ + p_; ++j) along(split_.q_dependent[k], j) += follow(static_cast<int>(k), j);
         std::vector<int> speeds_dependent;
         for (const int k : split_.u_dependent) speeds_dependent.push_back(n_ + k);
         nu_dependent_ = nu.part(up_to(r_.kept), speeds_dependent);
-        const CertainMatrix more = particular(Certain(-1) * (nu * along));
+        const RealBallMatrix more = particular(RealBall(-1) * (nu * along));
         for (int i = 0; i < s_; ++i)
             for (int j = 0; j < nr_ + p_; ++j) along(n_ + i, j) += more(i, j);
         result_.to_position =
-            solved(phi_dependent, Certain(-1) * column(result_.position), say("the constraints")).entries;
+            solved(phi_dependent, RealBall(-1) * column(result_.position), say("the constraints")).entries;
         result_.to_velocity =
-            solved(nu_dependent_, Certain(-1) * column(result_.velocity), say("the constraints")).entries;
+            solved(nu_dependent_, RealBall(-1) * column(result_.velocity), say("the constraints")).entries;
         U_ = along.part(up_to(n_ + s_, n_), up_to(nr_ + p_, nr_));
         Ut_ = transposed(U_);
     }
 
     /// u' and λ of the undisturbed motion.
     void add_motion() {
-        M_ = CertainMatrix(s_, s_);
+        M_ = RealBallMatrix(s_, s_);
         for (int i = 0, next = 0; i < s_; ++i)
             for (int j = 0; j <= i; ++j) M_(i, j) = M_(j, i) = value_[r_.mass[next++]].value();
-        const CertainMatrix f = column(values(r_.forcing));
+        const RealBallMatrix f = column(values(r_.forcing));
         udot_ = particular(column(values(r_.gamma)));
         result_.mass = Ut_ * M_ * U_;
-        const CertainMatrix wdot =
-            solved(result_.mass, Ut_ * (f + Certain(-1) * (M_ * udot_)), say("the mass matrix"));
+        const RealBallMatrix wdot =
+            solved(result_.mass, Ut_ * (f + RealBall(-1) * (M_ * udot_)), say("the mass matrix"));
         udot_ = udot_ + U_ * wdot;
         result_.speed_rates = wdot.entries;
-        CertainMatrix reaction = M_ * udot_ + Certain(-1) * f, on_dependent(r_.kept, 1);
+        RealBallMatrix reaction = M_ * udot_ + RealBall(-1) * f, on_dependent(r_.kept, 1);
         for (int k = 0; k < r_.kept; ++k) on_dependent(k, 0) = reaction(split_.u_dependent[k], 0);
         lambda_ = solved(transposed(nu_dependent_), on_dependent, say("the velocity constraints"));
     }
 
     /// From the derivatives of the residuals with constant u' and λ.
     void add_derivatives() {
-        CertainMatrix R = Certain(-1) * jacobian(r_.forcing), Gamma = Certain(-1) * jacobian(r_.gamma);
+        RealBallMatrix R = RealBall(-1) * jacobian(r_.forcing), Gamma = RealBall(-1) * jacobian(r_.gamma);
         for (int i = 0, next = 0; i < s_; ++i)
             for (int j = 0; j <= i; ++j, ++next)
                 for (int k = 0; k < n_ + s_; ++k) {
-                    const Certain d = value_[r_.mass[next]].coefficient(k + 1);
+                    const RealBall d = value_[r_.mass[next]].coefficient(k + 1);
                     if (d.is_zero()) continue;
                     R(i, k) += d * udot_(j, 0);
                     if (i != j) R(j, k) += d * udot_(i, 0);
@@ -325,13 +325,13 @@ private:
         for (int k = 0; k < r_.kept; ++k)
             for (int i = 0; i < s_; ++i)
                 for (int c = 0; c < n_ + s_; ++c) {
-                    const Certain d = value_[r_.row[k * s_ + i]].coefficient(c + 1);
+                    const RealBall d = value_[r_.row[k * s_ + i]].coefficient(c + 1);
                     if (d.is_zero()) continue;
                     R(i, c) -= d * lambda_(k, 0);
                     Gamma(k, c) += d * udot_(i, 0);
                 }
-        const CertainMatrix forced = particular(Certain(-1) * (Gamma * result_.along));
-        const CertainMatrix force = Ut_ * (R * result_.along + M_ * forced);
+        const RealBallMatrix forced = particular(RealBall(-1) * (Gamma * result_.along));
+        const RealBallMatrix force = Ut_ * (R * result_.along + M_ * forced);
         result_.stiffness = force.part(up_to(p_), up_to(nr_));
         result_.damping = force.part(up_to(p_), up_to(nr_ + p_, nr_));
     }
@@ -340,16 +340,16 @@ private:
     const Split& split_;
     const std::vector<Expansion> value_;
     const int n_, s_, nr_, p_;
-    CertainMatrix nu_dependent_, U_, Ut_, M_, udot_, lambda_;
-    CertainTangent result_;
+    RealBallMatrix nu_dependent_, U_, Ut_, M_, udot_, lambda_;
+    RealBallTangent result_;
 };
 
 }  // namespace
 
-CertainTangent Local::tangent_at(const CertainPoint& at) const {
+RealBallTangent Local::tangent_at(const RealBallPoint& at) const {
     const int variables = residuals.n + residuals.s;
     const Monomials linear(variables, 1);
-    return CertainAlgebra(residuals, split, interpret(residuals.program, state_at(at, &linear, up_to(variables))))
+    return RealBallAlgebra(residuals, split, interpret(residuals.program, state_at(at, &linear, up_to(variables))))
         .run();
 }
 
@@ -359,35 +359,35 @@ void Local::settle() {
         tangent = tangent_at(point);
         double largest = 0;
         bool is_exact = true;
-        const auto note = [&](const Certain& x) {
+        const auto note = [&](const RealBall& x) {
             largest = std::max(largest, std::abs(x.number()));
             is_exact = is_exact && x.is_zero();
         };
-        for (const CertainVector* list : {&tangent.position, &tangent.velocity, &tangent.speed_rates})
-            for (const Certain& x : *list) note(x);
+        for (const RealBallVector* list : {&tangent.position, &tangent.velocity, &tangent.speed_rates})
+            for (const RealBall& x : *list) note(x);
         bool sharp = true;
-        for (const CertainVector* list : {&point.q, &point.u})
-            for (const Certain& x : *list)
+        for (const RealBallVector* list : {&point.q, &point.u})
+            for (const RealBall& x : *list)
                 sharp = sharp && x.radius() < 1e-20 * std::max(1.0, std::abs(x.number()));
         if (is_exact || (largest < left_over && sharp)) return;
 
         // It starts from the middles; coordinates on which something depends are moved as little as possible.
-        CertainPoint middle = point;
-        for (CertainVector* list : {&middle.q, &middle.u})
-            for (Certain& x : *list)
-                if (!x.is_exact()) x = Certain::about(x.middle(), 0);
-        const CertainTangent here = tangent_at(middle);
-        const CertainMatrix by = here.stiffness.part(up_to(here.stiffness.rows), essential);
-        const CertainMatrix normal = transposed(by) * by;
-        const CertainMatrix right = transposed(by) * (here.mass * column(here.speed_rates));
+        RealBallPoint middle = point;
+        for (RealBallVector* list : {&middle.q, &middle.u})
+            for (RealBall& x : *list)
+                if (!x.is_exact()) x = RealBall::about(x.middle(), 0);
+        const RealBallTangent here = tangent_at(middle);
+        const RealBallMatrix by = here.stiffness.part(up_to(here.stiffness.rows), essential);
+        const RealBallMatrix normal = transposed(by) * by;
+        const RealBallMatrix right = transposed(by) * (here.mass * column(here.speed_rates));
         const auto move = solution(normal, right);
         double longest = 0;
-        const auto shift = [&](Certain& x, const Certain& by_much) {
+        const auto shift = [&](RealBall& x, const RealBall& by_much) {
             longest = std::max(longest, std::abs(by_much.number()));
-            x = Certain::about(x.middle() + by_much.middle(), 0);
+            x = RealBall::about(x.middle() + by_much.middle(), 0);
         };
         bool residual = false;
-        for (const Certain& x : here.speed_rates) residual = residual || std::abs(x.number()) > left_over;
+        for (const RealBall& x : here.speed_rates) residual = residual || std::abs(x.number()) > left_over;
         for (std::size_t k = 0; residual && move && k < essential.size(); ++k)
             shift(middle.q[split.q[essential[k]]], move->entries[k]);
         for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
@@ -395,9 +395,9 @@ void Local::settle() {
         for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
             if (!here.to_velocity[k].is_zero()) shift(middle.u[split.u_dependent[k]], here.to_velocity[k]);
         const auto widened = [&](double radius) {
-            for (CertainVector* list : {&middle.q, &middle.u})
-                for (Certain& x : *list)
-                    if (!x.is_exact()) x = Certain::about(x.middle(), radius);
+            for (RealBallVector* list : {&middle.q, &middle.u})
+                for (RealBall& x : *list)
+                    if (!x.is_exact()) x = RealBall::about(x.middle(), radius);
         };
         if (longest < left_over) {
             if (residual) break;  // no step, and no equilibrium to the last digit
@@ -428,8 +428,8 @@ void Local::find_momenta() {
 
 /// Of a state whose residuals are zero in exact numbers there is nothing to prove.
 void Local::prove_state() {
-    const auto are_zero = [](const CertainVector& list) {
-        return std::all_of(list.begin(), list.end(), [](const Certain& x) { return x.is_zero(); });
+    const auto are_zero = [](const RealBallVector& list) {
+        return std::all_of(list.begin(), list.end(), [](const RealBall& x) { return x.is_zero(); });
     };
     if (are_zero(tangent.position) && are_zero(tangent.velocity) && are_zero(tangent.speed_rates)) return;
     known = disc_around(residuals, split, essential, cyclic_momenta, point, found_to);
@@ -443,7 +443,7 @@ void Local::reduce() {
     for (int j = 0; j < p; ++j)
         if (position_in(cyclic_momenta, j) < 0) others.push_back(j);
     const int size = ne + static_cast<int>(others.size());
-    CertainMatrix T(p, size);
+    RealBallMatrix T(p, size);
     for (std::size_t k = 0; k < others.size(); ++k) T(others[k], ne + static_cast<int>(k)) = 1;
     if (!cyclic_momenta.empty()) {
         const Mechanism& m = mechanism;
@@ -452,28 +452,29 @@ void Local::reduce() {
         for (const int j : cyclic_momenta) wanted.push_back(momenta[split.u[j]]);
         const Monomials linear(residuals.n + residuals.s, 1);
         const std::vector<Expansion> value = series(wanted, linear, up_to(residuals.n + residuals.s));
-        const CertainMatrix dp = filled(static_cast<int>(value.size()), residuals.n + residuals.s,
-                                        [&](int i, int k) { return value[i].coefficient(k + 1); }) *
-                                 tangent.along;
+        const RealBallMatrix dp = filled(static_cast<int>(value.size()), residuals.n + residuals.s,
+                                         [&](int i, int k) { return value[i].coefficient(k + 1); }) *
+                                  tangent.along;
         std::vector<int> own, rest, columns;
         for (const int j : cyclic_momenta) own.push_back(nr + j);
         for (const int r : essential) rest.push_back(r);
         for (const int j : others) rest.push_back(nr + j);
         const std::vector<int> rows = up_to(static_cast<int>(value.size()));
-        const CertainMatrix x = solved(dp.part(rows, own), Certain(-1) * dp.part(rows, rest), say("the inertia"));
+        const RealBallMatrix x =
+            solved(dp.part(rows, own), RealBall(-1) * dp.part(rows, rest), say("the inertia"));
         for (std::size_t k = 0; k < cyclic_momenta.size(); ++k)
             for (int c = 0; c < size; ++c) T(cyclic_momenta[k], c) = x(static_cast<int>(k), c);
     }
-    CertainMatrix whole(nr + p, size);
+    RealBallMatrix whole(nr + p, size);
     for (int k = 0; k < ne; ++k) whole(essential[k], k) = 1;
     for (int j = 0; j < p; ++j)
         for (int c = 0; c < size; ++c) whole(nr + j, c) = T(j, c);
     std::vector<int> r_columns = up_to(nr), w_columns = up_to(nr + p, nr);
-    const CertainMatrix in_w = whole.part(w_columns, up_to(size)), in_r = whole.part(r_columns, up_to(size));
-    const CertainMatrix wdot = solved(
-        tangent.mass, Certain(-1) * (tangent.damping * in_w + tangent.stiffness * in_r), say("the mass matrix"));
-    const CertainMatrix rdot = tangent.rates * whole;
-    A = CertainMatrix(size, size);
+    const RealBallMatrix in_w = whole.part(w_columns, up_to(size)), in_r = whole.part(r_columns, up_to(size));
+    const RealBallMatrix wdot = solved(
+        tangent.mass, RealBall(-1) * (tangent.damping * in_w + tangent.stiffness * in_r), say("the mass matrix"));
+    const RealBallMatrix rdot = tangent.rates * whole;
+    A = RealBallMatrix(size, size);
     for (int k = 0; k < ne; ++k)
         for (int c = 0; c < size; ++c) A(k, c) = rdot(essential[k], c);
     for (std::size_t k = 0; k < others.size(); ++k)

@@ -21,10 +21,10 @@
 namespace alembert {
 
 /// M δw' + D δw + P δr = 0, δr' = H (δr, δw); the columns of `along` are the changes of (q, u) with (r, w).
-struct CertainTangent {
-    CertainMatrix mass, damping, stiffness, rates, along;
-    CertainVector speed_rates, coordinate_rates, position, velocity;  ///< residuals at the point
-    CertainVector to_position, to_velocity;  ///< Newton's step of the dependent coordinates and speeds
+struct RealBallTangent {
+    RealBallMatrix mass, damping, stiffness, rates, along;
+    RealBallVector speed_rates, coordinate_rates, position, velocity;  ///< residuals at the point
+    RealBallVector to_position, to_velocity;  ///< Newton's step of the dependent coordinates and speeds
 };
 
 class Local {
@@ -37,19 +37,19 @@ public:
     const Equations& equations;
     Residuals residuals;
     Split split;
-    CertainPoint point;
+    RealBallPoint point;
     StateKnown known = StateKnown::exactly;
-    CertainTangent tangent;
+    RealBallTangent tangent;
     std::vector<std::string> states;  ///< essential coordinates, then speeds
     std::vector<int> essential;       ///< positions in split.q of coordinates on which something depends
     std::vector<int>
         cyclic_momenta;  ///< positions in split.u of speeds whose momentum is conserved and which are eliminated
-    CertainMatrix A;     ///< over the states, with constant momenta
+    RealBallMatrix A;    ///< over the states, with constant momenta
 
-    CertainTangent tangent_at(const CertainPoint& at) const;
+    RealBallTangent tangent_at(const RealBallPoint& at) const;
     /// The program's values as series; `variables` gives for each of q, then u, the variable of the monomials that
     /// it is.
-    State<Expansion> state_at(const CertainPoint& at, const Monomials* monomials,
+    State<Expansion> state_at(const RealBallPoint& at, const Monomials* monomials,
                               const std::vector<int>& variables) const;
     /// Expressions in q, q', t, written in the speeds of the equations.
     std::vector<GiNaC::ex> in_speeds(const std::vector<GiNaC::ex>& of) const;

@@ -93,11 +93,11 @@ ex in_states(const ex& in_rates, const Local& local) {
 
 /// Is dV/dt = λ V + W with W definite and of V's sign? λ is found from the quadratic forms.
 bool by_second_theorem(const Expansion& V, const Expansion& rate, int sign, const Neighbourhood& near) {
-    const CertainMatrix Q = Certain(sign) * hessian(V, near.monomials),
-                        Q_rate = Certain(sign) * hessian(rate, near.monomials);
-    const auto factor = definite_combination(Q_rate, {Certain(-1) * Q});
+    const RealBallMatrix Q = RealBall(sign) * hessian(V, near.monomials),
+                         Q_rate = RealBall(sign) * hessian(rate, near.monomials);
+    const auto factor = definite_combination(Q_rate, {RealBall(-1) * Q});
     if (!factor || !((*factor)[0] > 0)) return false;
-    const Certain lambda{Rational(cln::rational(cln::cl_DF((*factor)[0])))};
+    const RealBall lambda{Rational(cln::rational(cln::cl_DF((*factor)[0])))};
     return sign_near(rate + Expansion(-lambda) * V, near.monomials).is(sign);
 }
 

@@ -25,7 +25,7 @@ std::vector<GiNaC::symbol> states_of(const Local& local) {
     return result;
 }
 
-std::optional<ex> exact_expression(const Certain& c) {
+std::optional<ex> exact_expression(const RealBall& c) {
     if (const auto r = c.rational()) return ex(GiNaC::numeric(cln::cl_N(*r)));
     if (const auto turns = c.multiple_of_pi()) return GiNaC::numeric(cln::cl_N(*turns)) * GiNaC::Pi;
     return {};
@@ -101,7 +101,7 @@ std::optional<ex> Neighbourhood::with_numbers(const ex& e) const {
     return result.subs(numbers);
 }
 
-bool Neighbourhood::vanishes_on(const ex& e, const CertainMatrix& Z) const {
+bool Neighbourhood::vanishes_on(const ex& e, const RealBallMatrix& Z) const {
     GiNaC::exmap there;
     for (int k = 0; k < size(); ++k) {
         const auto at = exact_expression(state_value(local, static_cast<std::size_t>(k)));
@@ -123,7 +123,7 @@ bool Neighbourhood::vanishes_on(const ex& e, const CertainMatrix& Z) const {
     }
 }
 
-std::optional<Certain> Neighbourhood::value(const ex& e) const {
+std::optional<RealBall> Neighbourhood::value(const ex& e) const {
     const Monomials none(1, 0);
     const std::vector<int> held(local.point.q.size() + local.point.u.size(), -1);
     // `e` is already an expression in the speeds.

@@ -34,9 +34,9 @@ public:
     /// and with constraints.
     std::optional<GiNaC::ex> with_numbers(const GiNaC::ex& e) const;
     /// Is `e` zero at the states point + Z z for all z?
-    bool vanishes_on(const GiNaC::ex& e, const CertainMatrix& Z) const;
+    bool vanishes_on(const GiNaC::ex& e, const RealBallMatrix& Z) const;
     /// The value of an expression in numbers at the point.
-    std::optional<Certain> value(const GiNaC::ex& e) const;
+    std::optional<RealBall> value(const GiNaC::ex& e) const;
 
 private:
     State<Expansion> state_;

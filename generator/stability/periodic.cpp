@@ -184,8 +184,8 @@ bool PeriodicSystem::shoot(PeriodicMotion<Real>& motion) const {
             const Real miss = end.state[static_cast<std::size_t>(row)] - motion.x[static_cast<std::size_t>(row)];
             largest = std::max(largest, miss < 0 ? Real(-miss) : miss);
         }
-        motion.misfit = static_cast<double>(largest);
-        if (motion.misfit < Precision<Real>::closed) return true;
+        motion.closure_error = static_cast<double>(largest);
+        if (motion.closure_error < Precision<Real>::closed) return true;
         const Index N = static_cast<Index>(rows.size());
         Eigen::MatrixXd J(N, N + (autonomous_ ? 1 : 0));
         Eigen::VectorXd g(N);
@@ -197,7 +197,7 @@ bool PeriodicSystem::shoot(PeriodicMotion<Real>& motion) const {
             if (autonomous_) J(i, N) = static_cast<double>(rate[row]);
         }
         const Eigen::VectorXd step = least_norm(J, -g).x;
-        if (!step.allFinite() || step.norm() * motion.misfit > 1e3) return false;
+        if (!step.allFinite() || step.norm() * motion.closure_error > 1e3) return false;
         for (Index i = 0; i < N; ++i)
             motion.x[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] +=
                 largest * static_cast<Real>(step[i]);

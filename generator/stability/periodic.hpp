@@ -24,7 +24,7 @@ template <typename Real>
 struct PeriodicMotion {
     std::vector<Real> parameters, x;  ///< coordinates, then speeds
     Real t = 0, period = 0;
-    double misfit = 0;  ///< |x(T) − x(0)|
+    double closure_error = 0;  ///< |x(T) − x(0)|
 };
 
 /// The end of one period.

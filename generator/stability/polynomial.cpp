@@ -106,9 +106,9 @@ Stability stability_of_polynomial(const Scene& scene, const StabilityOptions& op
     Program program = begun(m);
     const std::vector<int> nodes = lower_expressions(program, m, polynomial.coefficients);
     State<Expansion> state;
-    for (const Certain& p : exact_parameters(m, start_of(m, options.at), options.exact_at))
+    for (const RealBall& p : exact_parameters(m, start_of(m, options.at), options.exact_at))
         state.parameters.emplace_back(p);
-    CertainVector coefficients;
+    RealBallVector coefficients;
     const std::vector<Expansion> value = interpret(program, state);
     for (const int node : nodes) coefficients.push_back(value[node].value());
     if (coefficients.front().may_be_zero())
@@ -164,7 +164,7 @@ std::optional<SymbolicPencil> pencil_of(const Mechanism& m, const Equations& equ
 /// there is not found.
 bool make_first_positive(SymbolicPolynomial& p, const Local& local) {
     std::vector<double> parameters;
-    for (const Certain& p : local.point.parameters) parameters.push_back(p.number());
+    for (const RealBall& p : local.point.parameters) parameters.push_back(p.number());
     const double first = ParameterValues(local.mechanism, parameters).number(p.front());
     if (!std::isfinite(first) || first == 0) return false;
     if (first < 0)

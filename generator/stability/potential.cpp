@@ -70,7 +70,7 @@ public:
         return result;
     }
 
-    Certain value(int k) const { return local_.point.q[coordinates_[k]]; }
+    RealBall value(int k) const { return local_.point.q[coordinates_[k]]; }
 
 private:
     void find_momenta(const Mechanism& m) {
@@ -86,12 +86,12 @@ private:
     const Local& local_;
     std::vector<int> coordinates_, momenta_, nodes_;
     Program program_;
-    CertainVector values_;
+    RealBallVector values_;
 };
 
 /// The first coefficient of W along the kernel's curve: degree and coefficient.
-std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, const CertainMatrix& K,
-                                                    const CertainMatrix& kernel) {
+std::optional<std::pair<int, RealBall>> along_kernel(const AmendedPotential& W, const RealBallMatrix& K,
+                                                     const RealBallMatrix& kernel) {
     const int n = W.size();
     int base = 0;  // the coordinate that leads along the kernel
     for (int i = 0; i < n; ++i)
@@ -99,10 +99,10 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
     std::vector<int> others;
     for (int i = 0; i < n; ++i)
         if (i != base) others.push_back(i);
-    const CertainMatrix K_yy = K.part(others, others);
+    const RealBallMatrix K_yy = K.part(others, others);
     const Monomials line(1, highest_potential_degree);
-    std::vector<CertainVector> curve(static_cast<std::size_t>(n),
-                                     CertainVector(highest_potential_degree + 1, Certain(0)));
+    std::vector<RealBallVector> curve(static_cast<std::size_t>(n),
+                                      RealBallVector(highest_potential_degree + 1, RealBall(0)));
     curve[base][1] = 1;
     const auto series = [&] {
         std::vector<Expansion> result;
@@ -119,7 +119,7 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
     };
     for (int order = 1; order < highest_potential_degree && !others.empty(); ++order) {
         const std::vector<Expansion> gradient = W.at(series());
-        CertainMatrix right(static_cast<int>(others.size()), 1);
+        RealBallMatrix right(static_cast<int>(others.size()), 1);
         for (std::size_t k = 0; k < others.size(); ++k)
             right(static_cast<int>(k), 0) = -gradient[others[k]].coefficient(order);
         const auto step = solution(K_yy, right);
@@ -128,7 +128,7 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
     }
     const Expansion value = W.at(series()).back();
     for (int k = 2; k <= highest_potential_degree; ++k) {
-        const Certain c = value.coefficient(k);
+        const RealBall c = value.coefficient(k);
         if (c.is_zero()) continue;
         if (!c.sign()) return {};
         return std::pair(k, c);
@@ -141,7 +141,7 @@ std::optional<DegenerateMinimum> by_form(const AmendedPotential& W) {
     const Expansion value =
         W.at({Expansion::variable(plane, 0, W.value(0)), Expansion::variable(plane, 1, W.value(1))}).back();
     for (int d = 3; d <= highest_form; ++d) {
-        CertainVector form;
+        RealBallVector form;
         bool zero = true;
         for (int k = 0; k <= d; ++k) {
             form.push_back(value.coefficient({d - k, k}));
@@ -182,7 +182,7 @@ std::optional<DegenerateMinimum> degenerate_minimum(const Local& local, const Po
     std::vector<Expansion> at;
     for (int k = 0; k < n; ++k) at.push_back(Expansion::variable(linear, k, W.value(k)));
     const std::vector<Expansion> gradient = W.at(at);
-    CertainMatrix K(n, n);
+    RealBallMatrix K(n, n);
     for (int i = 0; i < n; ++i) {
         if (!gradient[i].value().is_zero()) return {};
         for (int j = 0; j < n; ++j) K(i, j) = gradient[i].coefficient(1 + j);

@@ -13,7 +13,7 @@ namespace alembert {
 
 Decision by_reversal(const Local& local, const std::vector<RootOf>& roots) {
     const Mechanism& m = local.mechanism;
-    Certain square = 0;  // the sum of the squares of the eigenvalues, −2ω²
+    RealBall square = 0;  // the sum of the squares of the eigenvalues, −2ω²
     for (int i = 0; i < local.A.rows; ++i)
         for (int k = 0; k < local.A.rows; ++k) square += local.A(i, k) * local.A(k, i);
     if (square.sign() != -1 || !m.unilateral.empty() || changes_with_time(m, local.equations)) return {};

@@ -32,7 +32,7 @@ std::optional<Expansion> series_of(const ex& f, const Neighbourhood& near) {
 }
 
 /// Do all derivatives up to this order vanish on the space?
-bool vanishes_to_order(const ex& f, int order, const CertainMatrix& Z, const Neighbourhood& near) {
+bool vanishes_to_order(const ex& f, int order, const RealBallMatrix& Z, const Neighbourhood& near) {
     if (!near.vanishes_on(f, Z)) return false;
     if (order > 0)
         for (const GiNaC::symbol& x : near.states)
@@ -41,7 +41,7 @@ bool vanishes_to_order(const ex& f, int order, const CertainMatrix& Z, const Nei
 }
 
 /// Adds the function (row r of `rows`) · (deviations), also as an expression if its coefficients are rational.
-void add_linear(Semidefinite::ZeroSet& set, const CertainMatrix& rows, int r, const Neighbourhood& near) {
+void add_linear(Semidefinite::ZeroSet& set, const RealBallMatrix& rows, int r, const Neighbourhood& near) {
     Expansion linear(0);
     ex text = 0;
     std::optional<Rational> first;
@@ -72,7 +72,7 @@ std::optional<Semidefinite> by_leading_form(const ex& f, const Neighbourhood& ne
     for (int k = near.monomials.size() - 1; k > 0; --k)
         if (!series->coefficient(k).is_zero()) degree = near.monomials.degree_of(k);
     if (degree < 2 || degree > 4 || degree % 2 == 1) return {};
-    CertainMatrix Z, rows;
+    RealBallMatrix Z, rows;
     int sign = 0;
     if (degree == 2) {
         rows = hessian(*series, near.monomials);
@@ -88,8 +88,8 @@ std::optional<Semidefinite> by_leading_form(const ex& f, const Neighbourhood& ne
                 if (near.monomials.degree_of(k) == degree && near.monomials.exponents(k)[v] > 0 &&
                     !series->coefficient(k).is_zero() && (used.empty() || used.back() != v))
                     used.push_back(v);
-        rows = CertainMatrix(static_cast<int>(used.size()), n);
-        Z = CertainMatrix(n, n - rows.rows);
+        rows = RealBallMatrix(static_cast<int>(used.size()), n);
+        Z = RealBallMatrix(n, n - rows.rows);
         for (int v = 0, column = 0, row = 0; v < n; ++v)
             if (std::find(used.begin(), used.end(), v) == used.end())
                 Z(v, column++) = 1;
@@ -164,15 +164,15 @@ std::optional<Semidefinite> by_factors(const ex& f, const Neighbourhood& near, b
 /// Functions whose linear parts are independent, and the other functions.
 struct Observed {
     std::vector<Expansion> leading, rest;
-    CertainMatrix rows;  ///< the linear parts of `leading`
+    RealBallMatrix rows;  ///< the linear parts of `leading`
 };
 
 Observed observed(const std::vector<Expansion>& functions, const Neighbourhood& near) {
     const int n = near.size();
     Observed result;
-    result.rows = CertainMatrix(0, n);
+    result.rows = RealBallMatrix(0, n);
     for (const Expansion& h : functions) {
-        CertainMatrix longer(result.rows.rows + 1, n);
+        RealBallMatrix longer(result.rows.rows + 1, n);
         std::copy(result.rows.entries.begin(), result.rows.entries.end(), longer.entries.begin());
         for (int k = 0; k < n; ++k) {
             Monomials::Exponents one(static_cast<std::size_t>(n), 0);
@@ -213,8 +213,8 @@ bool holds_no_other_motion(const Semidefinite::ZeroSet& set, const Neighbourhood
     // functions must not vanish on it.
     const auto Z = null_space(seen.rows);
     if (!Z || Z->columns != 1) return false;
-    const CertainMatrix across = transposed(seen.rows);
-    const CertainMatrix square = seen.rows * across;
+    const RealBallMatrix across = transposed(seen.rows);
+    const RealBallMatrix square = seen.rows * across;
     const Monomials line(1, near.monomials.degree());
     const Expansion z = Expansion::variable(line, 0, 0);
     std::vector<Expansion> x(static_cast<std::size_t>(n), Expansion(0));
@@ -222,11 +222,11 @@ bool holds_no_other_motion(const Semidefinite::ZeroSet& set, const Neighbourhood
     Expansion power = z;
     for (int order = 2; order < line.degree(); ++order) {
         power = power * z;
-        CertainMatrix right(rank_seen, 1);
+        RealBallMatrix right(rank_seen, 1);
         for (int r = 0; r < rank_seen; ++r) right(r, 0) = -put_into(seen.leading[r], x).coefficient(order);
         const auto step = solution(square, right);
         if (!step) return false;
-        const CertainMatrix move = across * *step;
+        const RealBallMatrix move = across * *step;
         for (int i = 0; i < n; ++i)
             if (!move(i, 0).is_zero()) x[i] += Expansion(move(i, 0)) * power;
     }
@@ -234,7 +234,7 @@ bool holds_no_other_motion(const Semidefinite::ZeroSet& set, const Neighbourhood
         const Expansion along = put_into(h, x);
         // The terms that the highest order of x contributes are not used.
         for (int k = 1; k < line.degree(); ++k) {
-            const Certain c = along.coefficient(k);
+            const RealBall c = along.coefficient(k);
             if (c.is_zero()) continue;
             if (c.sign()) return true;
             break;

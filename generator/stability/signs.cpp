@@ -18,14 +18,14 @@ using Exponents = Monomials::Exponents;
 /// The terms of one degree.
 struct LeadingForm {
     int degree = 0;
-    std::vector<std::pair<Exponents, Certain>> terms;
+    std::vector<std::pair<Exponents, RealBall>> terms;
 
-    Certain at(const std::vector<int>& x) const {
-        Certain sum = 0;
+    RealBall at(const std::vector<int>& x) const {
+        RealBall sum = 0;
         for (const auto& [exponents, c] : terms) {
-            Certain term = c;
+            RealBall term = c;
             for (std::size_t v = 0; v < x.size(); ++v)
-                for (int e = 0; e < exponents[v]; ++e) term *= Certain(x[v]);
+                for (int e = 0; e < exponents[v]; ++e) term *= RealBall(x[v]);
             sum += term;
         }
         return sum;
@@ -36,7 +36,7 @@ std::optional<LeadingForm> leading_form(const Expansion& f, const Monomials& mon
     LeadingForm form;
     for (int k = 1; k < monomials.size(); ++k) {
         if (!form.terms.empty() && monomials.degree_of(k) > form.degree) break;
-        const Certain c = f.coefficient(k);
+        const RealBall c = f.coefficient(k);
         if (c.is_zero()) continue;
         form.degree = monomials.degree_of(k);
         form.terms.emplace_back(monomials.exponents(k), c);
@@ -88,17 +88,17 @@ bool is_sum_of_squares(const LeadingForm& form, int sign, int n) {
             for (int v = 0; v < n; ++v) sum[v] += half.exponents(basis[j])[v];
             pairs[sum].emplace_back(i, j);
         }
-    CertainMatrix G(size, size);
-    std::vector<CertainMatrix> more;  // matrices that may be added to G without a change of zᵀ G z
-    const auto add = [](CertainMatrix& m, const std::pair<int, int>& at, const Certain& share) {
+    RealBallMatrix G(size, size);
+    std::vector<RealBallMatrix> more;  // matrices that may be added to G without a change of zᵀ G z
+    const auto add = [](RealBallMatrix& m, const std::pair<int, int>& at, const RealBall& share) {
         const auto& [i, j] = at;
-        m(i, j) += i == j ? share : share * Certain(Rational(1) / 2);
+        m(i, j) += i == j ? share : share * RealBall(Rational(1) / 2);
         if (i != j) m(j, i) = m(i, j);
     };
     for (const auto& [exponents, c] : form.terms) {
         const std::vector<std::pair<int, int>>& at = pairs.at(exponents);
         for (const std::pair<int, int>& one : at)
-            add(G, one, Certain(sign) * c * Certain(Rational(1) / static_cast<int>(at.size())));
+            add(G, one, RealBall(sign) * c * RealBall(Rational(1) / static_cast<int>(at.size())));
     }
     for (const auto& [exponents, at] : pairs)
         for (std::size_t k = 1; k < at.size(); ++k) {
@@ -109,14 +109,14 @@ bool is_sum_of_squares(const LeadingForm& form, int sign, int n) {
     const auto s = definite_combination(G, more);
     if (!s) return false;
     for (std::size_t k = 0; k < s->size(); ++k)
-        G = G + Certain(Rational(cln::rational(cln::cl_DF((*s)[k])))) * more[k];
+        G = G + RealBall(Rational(cln::rational(cln::cl_DF((*s)[k])))) * more[k];
     const auto signs = inertia(G);
     return signs && signs->positive == size;
 }
 
 SignNear sign_of_form(const LeadingForm& form, int n) {
     if (n == 2) {
-        CertainVector c(static_cast<std::size_t>(form.degree) + 1, Certain(0));
+        RealBallVector c(static_cast<std::size_t>(form.degree) + 1, RealBall(0));
         for (const auto& [exponents, value] : form.terms) c[static_cast<std::size_t>(exponents[1])] = value;
         return sign_of_binary_form(c);
     }
@@ -126,16 +126,16 @@ SignNear sign_of_form(const LeadingForm& form, int n) {
     return found;
 }
 
-CertainMatrix transformed(const CertainMatrix& Q, const CertainMatrix& by) {
+RealBallMatrix transformed(const RealBallMatrix& Q, const RealBallMatrix& by) {
     return transposed(by) * Q * by;
 }
 
 /// Unit vectors that complete the columns of Z to a basis.
-CertainMatrix complement(const CertainMatrix& Z) {
+RealBallMatrix complement(const RealBallMatrix& Z) {
     const int n = Z.rows;
-    CertainMatrix all = Z;
+    RealBallMatrix all = Z;
     for (int i = 0; i < n && all.columns < n; ++i) {
-        CertainMatrix longer(n, all.columns + 1);
+        RealBallMatrix longer(n, all.columns + 1);
         for (int r = 0; r < n; ++r) {
             for (int c = 0; c < all.columns; ++c) longer(r, c) = all(r, c);
             longer(r, all.columns) = r == i ? 1 : 0;
@@ -150,28 +150,28 @@ CertainMatrix complement(const CertainMatrix& Z) {
 }
 
 /// W(z) = f(Z z + Y y(z)), where f_y = 0 on y(z).
-SignNear sign_of_rest(const Expansion& f, const Monomials& monomials, const CertainMatrix& Q,
-                      const CertainMatrix& Z) {
+SignNear sign_of_rest(const Expansion& f, const Monomials& monomials, const RealBallMatrix& Q,
+                      const RealBallMatrix& Z) {
     const int n = Q.rows, nz = Z.columns;
-    const CertainMatrix Y = complement(Z);
+    const RealBallMatrix Y = complement(Z);
     std::vector<Expansion> slopes;
     for (int i = 0; i < n; ++i) slopes.push_back(derivative(f, i));
     const Monomials rest(nz, monomials.degree());
     std::vector<Expansion> x(static_cast<std::size_t>(n), Expansion(0));
     for (int i = 0; i < n; ++i)
         for (int c = 0; c < nz; ++c) x[i] += Expansion(Z(i, c)) * Expansion::variable(rest, c, 0);
-    const CertainMatrix Q_yy = transformed(Q, Y);
+    const RealBallMatrix Q_yy = transformed(Q, Y);
     for (int order = 2; order < monomials.degree(); ++order) {
         // f_y along the y found so far: its terms of this degree give the next terms of y.
         std::vector<Expansion> slope;
         for (int i = 0; i < n; ++i) slope.push_back(put_into(slopes[i], x));
         for (int k = 0; k < rest.size(); ++k) {
             if (rest.degree_of(k) != order) continue;
-            CertainMatrix right(n, 1);
+            RealBallMatrix right(n, 1);
             for (int i = 0; i < n; ++i) right(i, 0) = -slope[i].coefficient(k);
             const auto step = solution(Q_yy, transposed(Y) * right);
             if (!step) return {};
-            const CertainMatrix move = Y * *step;
+            const RealBallMatrix move = Y * *step;
             Expansion term(1);
             for (int v = 0; v < nz; ++v)
                 for (int e = 0; e < rest.exponents(k)[v]; ++e) term *= Expansion::variable(rest, v, 0);
@@ -184,21 +184,21 @@ SignNear sign_of_rest(const Expansion& f, const Monomials& monomials, const Cert
 
 }  // namespace
 
-CertainMatrix hessian(const Expansion& f, const Monomials& monomials) {
+RealBallMatrix hessian(const Expansion& f, const Monomials& monomials) {
     const int n = monomials.variables();
-    CertainMatrix result(n, n);
+    RealBallMatrix result(n, n);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= i; ++j) {
             Exponents exponents(static_cast<std::size_t>(n), 0);
             ++exponents[i];
             ++exponents[j];
-            const Certain c = f.coefficient(monomials.index(exponents));
+            const RealBall c = f.coefficient(monomials.index(exponents));
             result(i, j) = result(j, i) = i == j ? c + c : c;
         }
     return result;
 }
 
-SignNear sign_of_binary_form(const CertainVector& c) {
+SignNear sign_of_binary_form(const RealBallVector& c) {
     LeadingForm form{.degree = static_cast<int>(c.size()) - 1, .terms = {}};
     for (int k = 0; k <= form.degree; ++k)
         if (!c[k].is_zero()) form.terms.push_back({{form.degree - k, k}, c[k]});
@@ -221,7 +221,7 @@ SignNear sign_near(const Expansion& f, const Monomials& monomials) {
     const auto form = leading_form(f, monomials);
     if (!form) return {};
     if (form->degree != 2) return sign_of_form(*form, n);
-    const CertainMatrix Q = hessian(f, monomials);
+    const RealBallMatrix Q = hessian(f, monomials);
     const auto signs = inertia(Q);
     if (!signs) return at_points(*form, n);
     SignNear result{.positive = signs->positive > 0, .negative = signs->negative > 0};
@@ -236,9 +236,9 @@ SignNear sign_near(const Expansion& f, const Monomials& monomials) {
 }
 
 /// The least eigenvalue is concave in s; it is increased along one component of s after the other.
-std::optional<std::vector<double>> definite_combination(const CertainMatrix& Q0,
-                                                        const std::vector<CertainMatrix>& more) {
-    const auto numbers = [](const CertainMatrix& m) {
+std::optional<std::vector<double>> definite_combination(const RealBallMatrix& Q0,
+                                                        const std::vector<RealBallMatrix>& more) {
+    const auto numbers = [](const RealBallMatrix& m) {
         Eigen::MatrixXd result(m.rows, m.columns);
         for (int i = 0; i < m.rows; ++i)
             for (int j = 0; j < m.columns; ++j) result(i, j) = m(i, j).number();
@@ -246,7 +246,7 @@ std::optional<std::vector<double>> definite_combination(const CertainMatrix& Q0,
     };
     const Eigen::MatrixXd base = numbers(Q0);
     std::vector<Eigen::MatrixXd> others;
-    for (const CertainMatrix& m : more) others.push_back(numbers(m));
+    for (const RealBallMatrix& m : more) others.push_back(numbers(m));
     std::vector<double> s(more.size(), 0.0);
     const auto least = [&] {
         Eigen::MatrixXd sum = base;

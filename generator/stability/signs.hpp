@@ -27,13 +27,13 @@ struct SignNear {
 SignNear sign_near(const Expansion& f, const Monomials& monomials);
 
 /// The sign of the form Σ c_k x^(d−k) y^k.
-SignNear sign_of_binary_form(const CertainVector& c);
+SignNear sign_of_binary_form(const RealBallVector& c);
 
 /// The matrix of second derivatives.
-CertainMatrix hessian(const Expansion& f, const Monomials& monomials);
+RealBallMatrix hessian(const Expansion& f, const Monomials& monomials);
 
 /// Numbers s such that Q0 + Σ s_k Q_k is positive definite in floating point; nothing if none are found.
-std::optional<std::vector<double>> definite_combination(const CertainMatrix& Q0,
-                                                        const std::vector<CertainMatrix>& more);
+std::optional<std::vector<double>> definite_combination(const RealBallMatrix& Q0,
+                                                        const std::vector<RealBallMatrix>& more);
 
 }  // namespace alembert

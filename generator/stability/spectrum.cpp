@@ -63,7 +63,7 @@ std::vector<std::pair<Rationals, int>> square_free(const Rationals& p) {
 }
 
 /// Highest power first.
-CertainVector certain(const Rationals& p) {
+RealBallVector certain(const Rationals& p) {
     return {p.rbegin(), p.rend()};
 }
 
@@ -112,10 +112,10 @@ std::vector<ComplexQuad> approximate(const std::vector<Quad>& p) {
     return z;
 }
 
-std::vector<Disc> discs_of(const CertainVector& p) {
+std::vector<Disc> discs_of(const RealBallVector& p) {
     const int n = static_cast<int>(p.size()) - 1;
     std::vector<Quad> middle;
-    for (const Certain& c : p) middle.push_back(c.middle());
+    for (const RealBall& c : p) middle.push_back(c.middle());
     std::vector<Disc> result;
     const std::vector<ComplexQuad> z = approximate(middle);
     for (int i = 0; i < n; ++i) {
@@ -175,7 +175,7 @@ Side side_of(const ComplexQuad& centre, Quad radius) {
     return centre.re > radius ? Side::right : centre.re < -radius ? Side::left : Side::unclear;
 }
 
-void add_general(std::vector<RootOf>& result, const CertainVector& p, int multiplicity) {
+void add_general(std::vector<RootOf>& result, const RealBallVector& p, int multiplicity) {
     for (const Disc& disc : discs_of(p)) {
         ComplexQuad centre = disc.centre;
         if (is_real(disc)) centre.im = 0;
@@ -186,8 +186,8 @@ void add_general(std::vector<RootOf>& result, const CertainVector& p, int multip
 }
 
 /// p(s) = e(s²).
-void add_even(std::vector<RootOf>& result, const CertainVector& p, int multiplicity) {
-    CertainVector e;
+void add_even(std::vector<RootOf>& result, const RealBallVector& p, int multiplicity) {
+    RealBallVector e;
     for (std::size_t k = 0; k < p.size(); k += 2) e.push_back(p[k]);
     for (const Disc& disc : discs_of(e)) {
         const ComplexQuad u = disc.centre;
@@ -234,7 +234,7 @@ bool precedes(const RootOf& a, const RootOf& b) {
     return place(a) < place(b);
 }
 
-std::vector<RootOf> roots_of(CertainVector p, bool even) {
+std::vector<RootOf> roots_of(RealBallVector p, bool even) {
     std::vector<RootOf> result;
     if (even)
         for (std::size_t k = 0; k < p.size(); ++k)

@@ -35,6 +35,6 @@ struct RootOf {
 bool precedes(const RootOf& a, const RootOf& b);
 
 /// The roots in this order. The first coefficient must not be zero.
-std::vector<RootOf> roots_of(CertainVector coefficients, bool even = false);
+std::vector<RootOf> roots_of(RealBallVector coefficients, bool even = false);
 
 }  // namespace alembert

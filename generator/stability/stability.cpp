@@ -194,10 +194,10 @@ void name_forces(Decision& decision, const Local& local, const PowerSign& power)
         if (local.is_essential(local.split.u[j])) rows.push_back(static_cast<int>(j));
     if (rows.size() != local.essential.size() || !local.residuals.rates_are_speeds) return;
     const bool has_rates = std::any_of(local.tangent.damping.entries.begin(), local.tangent.damping.entries.end(),
-                                       [](const Certain& c) { return !c.is_zero(); });
+                                       [](const RealBall& c) { return !c.is_zero(); });
     if (!has_rates) return;
-    const CertainMatrix P = local.tangent.stiffness.part(rows, local.essential);
-    const CertainMatrix K = Certain(Rational(1) / 2) * (P + transposed(P));
+    const RealBallMatrix P = local.tangent.stiffness.part(rows, local.essential);
+    const RealBallMatrix K = RealBall(Rational(1) / 2) * (P + transposed(P));
     const auto signs = inertia(K);
     if (!signs || signs->negative == 0) return;
     if (signs->negative % 2 == 1 && signs->zero == 0) {
@@ -219,7 +219,7 @@ bool has_even_spectrum(const Local& local) {
     const Mechanism& m = local.mechanism;
     if (!local.residuals.rates_are_speeds) return false;
     bool no_rates = m.constraints.empty() && local.near.matrices.moving.empty() && local.cyclic_momenta.empty();
-    for (const Certain& c : local.tangent.damping.entries) no_rates = no_rates && c.is_zero();
+    for (const RealBall& c : local.tangent.damping.entries) no_rates = no_rates && c.is_zero();
     if (no_rates) return true;
     for (const Mechanism::Constraint& c : m.constraints)
         if (!c.holonomic) return false;
@@ -230,12 +230,12 @@ bool has_even_spectrum(const Local& local) {
 }
 
 /// The matrix with radii for numbers that are known to the last digits of a double.
-CertainMatrix blurred(const Eigen::MatrixXd& A) {
-    CertainMatrix result(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
+RealBallMatrix blurred(const Eigen::MatrixXd& A) {
+    RealBallMatrix result(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
     const double unit = 1e-13 * (A.size() == 0 ? 0.0 : A.cwiseAbs().maxCoeff());
     for (int i = 0; i < result.rows; ++i)
         for (int j = 0; j < result.columns; ++j)
-            if (A(i, j) != 0) result(i, j) = Certain::about(static_cast<Quad>(A(i, j)), unit);
+            if (A(i, j) != 0) result(i, j) = RealBall::about(static_cast<Quad>(A(i, j)), unit);
     return result;
 }
 

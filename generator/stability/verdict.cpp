@@ -28,9 +28,9 @@ const RootOf* first_on(const std::vector<RootOf>& roots, Side side) {
     return found == roots.rend() ? nullptr : &*found;
 }
 
-std::vector<Rational> rationals(const CertainVector& values) {
+std::vector<Rational> rationals(const RealBallVector& values) {
     std::vector<Rational> result;
-    for (const Certain& c : values)
+    for (const RealBall& c : values)
         if (const auto r = c.rational()) result.push_back(*r);
     return result.size() == values.size() ? result : std::vector<Rational>();
 }
@@ -38,7 +38,7 @@ std::vector<Rational> rationals(const CertainVector& values) {
 /// Do multiple roots on the axis have as many eigenvectors as their multiplicity? All roots must lie left of the
 /// axis or on it. With g, the product of (s − root) over the different roots on the axis, this is so if and only
 /// if g(A) and g(A)² have the same rank. Nothing if A is not rational.
-std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
+std::optional<bool> axis_is_semisimple(const RealBallMatrix& A) {
     Univariate<Rational> p = rationals(characteristic(A));
     if (p.empty()) return {};
     std::reverse(p.begin(), p.end());
@@ -46,10 +46,10 @@ std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
     for (std::size_t k = 1; k < p.size(); k += 2) mirrored[k] = -mirrored[k];
     const Univariate<Rational> g = univariate::divisor(p, mirrored);
     const Univariate<Rational> simple = univariate::quotient(g, univariate::divisor(g, univariate::derivative(g)));
-    CertainMatrix value(A.rows, A.rows);  // Horner's scheme
+    RealBallMatrix value(A.rows, A.rows);  // Horner's scheme
     for (std::size_t k = simple.size(); k-- > 0;) {
         value = value * A;
-        for (int i = 0; i < A.rows; ++i) value(i, i) += Certain(simple[k]);
+        for (int i = 0; i < A.rows; ++i) value(i, i) += RealBall(simple[k]);
     }
     const auto once = rank(value), twice = rank(value * value);
     if (!once || !twice) return {};
@@ -58,7 +58,7 @@ std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
 
 }  // namespace
 
-Decision decide_linear(const std::vector<RootOf>& roots, const CertainMatrix* A) {
+Decision decide_linear(const std::vector<RootOf>& roots, const RealBallMatrix* A) {
     const std::string what = A ? say("eigenvalue") : say("root");
     if (const RootOf* const right = first_on(roots, Side::right))
         return {StabilityVerdict::unstable, StabilityTheorem::hurwitz,
@@ -122,7 +122,7 @@ bool is_linear(const Mechanism& m, const Equations& e) {
     return true;
 }
 
-std::vector<RootOf> eigenvalues_of(const CertainMatrix& A, bool even) {
+std::vector<RootOf> eigenvalues_of(const RealBallMatrix& A, bool even) {
     std::vector<RootOf> result;
     const auto blocks = even ? std::vector<std::vector<int>>() : diagonal_blocks(A);
     if (even && A.rows > 0) result = roots_of(characteristic(A), true);

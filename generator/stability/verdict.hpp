@@ -17,7 +17,7 @@ struct Decision {
 
 /// The verdict for x' = A x itself, or for a polynomial (then `A` is null, and a multiple root on the axis is
 /// unstable).
-Decision decide_linear(const std::vector<RootOf>& roots, const CertainMatrix* A);
+Decision decide_linear(const std::vector<RootOf>& roots, const RealBallMatrix* A);
 
 /// The verdict of the roots on the nonlinear equations; undecided if one lies on the axis or near it.
 Decision decide_first(const std::vector<RootOf>& roots);
@@ -26,6 +26,6 @@ Decision decide_first(const std::vector<RootOf>& roots);
 bool is_linear(const Mechanism& mechanism, const Equations& equations);
 
 /// The roots of the blocks of A; with `even`, those of M s² + G s + K with symmetric M, K and skew G.
-std::vector<RootOf> eigenvalues_of(const CertainMatrix& A, bool even);
+std::vector<RootOf> eigenvalues_of(const RealBallMatrix& A, bool even);
 
 }  // namespace alembert

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "analysis/derive/derived.hpp"
 #include "codegen/emit/taylor.hpp"
 #include "codegen/machine/memory_series.hpp"

@@ -27,7 +27,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "pack.hpp"
 #include "rivals.hpp"
@@ -156,7 +156,7 @@ Json reference_of(const std::string& folder, const std::string& name) {
 
 Json measured(const Json& info, const std::string& source, const std::string& folder) {
     const std::string name = std::filesystem::path(source).stem().string();
-    const Compiled compiled = compile(text_of(source), name, {});
+    const Compilation compiled = compile(text_of(source), name, {});
     const Module module = load(compiled.object);
     const alembert_solver_table& table = module.table();
     const int n = table.coordinates, s = table.speeds;

@@ -33,7 +33,7 @@
 #include <vector>
 
 #include "alembert/batch/packs.hpp"
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "angles.hpp"
 

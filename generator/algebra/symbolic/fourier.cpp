@@ -72,9 +72,9 @@ Term circular_term(bool is_sine, Polynomial arg) {
         arg = -arg;
         if (is_sine) sign = -1;
     }
-    const Rational turns = coefficient_of_pi(arg);
-    if (!cln::zerop(turns)) {
-        const cln::cl_I quarters = cln::ceiling1(2 * turns - Rational(1) / 2);
+    const Rational half_turns = coefficient_of_pi(arg);
+    if (!cln::zerop(half_turns)) {
+        const cln::cl_I quarters = cln::ceiling1(2 * half_turns - Rational(1) / 2);
         arg = arg - Polynomial(pi_atom()) * Polynomial(Rational(quarters) / 2);
         const int quarter = cln::cl_I_to_int(cln::mod(quarters, 4));
         // cos(x + π/2) = −sin x, sin(x + π/2) = cos x

@@ -77,9 +77,9 @@ namespace {
 
 /// Whether the value would contain nested roots, as for multiples of π/10, π/12 …
 bool would_be_nested_roots(const ex& angle) {
-    const ex turns = angle / GiNaC::Pi;
-    if (!GiNaC::is_a<GiNaC::numeric>(turns)) return false;
-    const GiNaC::numeric c = GiNaC::ex_to<GiNaC::numeric>(turns);
+    const ex half_turns = angle / GiNaC::Pi;
+    if (!GiNaC::is_a<GiNaC::numeric>(half_turns)) return false;
+    const GiNaC::numeric c = GiNaC::ex_to<GiNaC::numeric>(half_turns);
     return c.is_rational() && !(c * 6).is_integer() && !(c * 4).is_integer();
 }
 

@@ -23,9 +23,9 @@ Fourier resolve(const Factor& factor, Budget& budget) {
         return multiply(power(sine(arg), factor.exponent, budget), power(cosine(arg), -factor.exponent, budget),
                         budget);
     }
-    const Rational turns = atom.is_circular() ? coefficient_of_pi(atom.args[0]) : Rational(0);
-    if (atom.is_circular() && (cln::abs(6 * turns) == 1 || 4 * turns == 1)) {
-        const Fourier phase = Fourier::collect({{{{pi_atom(), 1}}, turns}});
+    const Rational half_turns = atom.is_circular() ? coefficient_of_pi(atom.args[0]) : Rational(0);
+    if (atom.is_circular() && (cln::abs(6 * half_turns) == 1 || 4 * half_turns == 1)) {
+        const Fourier phase = Fourier::collect({{{{pi_atom(), 1}}, half_turns}});
         const Fourier rest = Fourier::collect(atom.args[0].terms()) - phase;
         return atom.kind == Kind::sine ? sine(rest) * cosine(phase) + cosine(rest) * sine(phase)
                                        : cosine(rest) * cosine(phase) - sine(rest) * sine(phase);

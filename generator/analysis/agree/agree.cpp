@@ -11,7 +11,7 @@
 
 #include "alembert/base/random.hpp"
 #include "analysis/agree/system.hpp"
-#include "analysis/exact/square_points.hpp"
+#include "analysis/exact/quadratic_residue_points.hpp"
 #include "analysis/state/redundancy.hpp"
 #include "analysis/state/speeds.hpp"
 #include "base/language/say.hpp"
@@ -178,7 +178,7 @@ class SampledSystems {
 public:
     explicit SampledSystems(const std::vector<EquationSystem>& systems)
         : systems_(systems), usable_(parts_of(systems), {}) {
-        for (const SquarePoints::Part& part : parts_of(systems))
+        for (const QuadraticResiduePoints::Part& part : parts_of(systems))
             finer_ = std::max(finer_, halvings(*part.program, part.roots) - ModularPoint{}.halves);
         for (const EquationSystem& s : systems)
             if (!s.is_plain()) speeds_ = &s;
@@ -200,8 +200,8 @@ public:
     }
 
 private:
-    static std::vector<SquarePoints::Part> parts_of(const std::vector<EquationSystem>& systems) {
-        std::vector<SquarePoints::Part> parts;
+    static std::vector<QuadraticResiduePoints::Part> parts_of(const std::vector<EquationSystem>& systems) {
+        std::vector<QuadraticResiduePoints::Part> parts;
         for (const EquationSystem& s : systems) {
             parts.push_back({&s.program, s.wanted});
             parts.back().roots.insert(parts.back().roots.end(), s.rates.begin(), s.rates.end());
@@ -210,7 +210,7 @@ private:
     }
 
     const std::vector<EquationSystem>& systems_;
-    SquarePoints usable_;
+    QuadraticResiduePoints usable_;
     int finer_ = 0;
     const EquationSystem* speeds_ = nullptr;  ///< one in speeds, which determines the rates
 };

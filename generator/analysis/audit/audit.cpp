@@ -87,7 +87,7 @@ private:
         if (c.position)
             values = {*c.position};
         else
-            values.push_back(c.drift);
+            values.push_back(c.offset);
         if (std::none_of(values.begin(), values.end(), [&](const ex& e) { return m_.z->depends(e, clock()); }))
             return false;
         const std::vector<ex> rates = m_.explicit_time_derivative(values);

@@ -407,7 +407,7 @@ std::vector<OneForm> forms_of(const Mechanism& m) {
     std::vector<OneForm> result;
     for (const Mechanism::Constraint& c : m.constraints) {
         OneForm form = c.row;
-        form.push_back(c.drift);
+        form.push_back(c.offset);
         result.push_back(form);
     }
     return result;

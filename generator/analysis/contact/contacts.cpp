@@ -61,13 +61,13 @@ Mechanism with_contact_forces(Mechanism mechanism) {
 namespace {
 
 std::vector<ex> sliding_velocity(const Mechanism::Friction& f) {
-    return f.across ? std::vector{f.slip, *f.across} : std::vector{f.slip};
+    return f.across ? std::vector{f.sliding_velocity, *f.across} : std::vector{f.sliding_velocity};
 }
 
 /// Replaces the sliding velocity of each friction by its one or two components, and adds their rates of change at
 /// q'' = 0, its restitution, and ∂v/∂q' of each component, n entries each.
 void add_slip_rows(Program& program, const Mechanism& mechanism) {
-    std::erase_if(program.roots, [](const Root& root) { return root.group == Group::slip; });
+    std::erase_if(program.roots, [](const Root& root) { return root.group == Group::sliding_velocity; });
     const auto add = [&](Group group, const std::vector<ex>& values) {
         for (const int node : lower_expressions(program, mechanism, values))
             program.roots.push_back({group, "", node});
@@ -77,16 +77,16 @@ void add_slip_rows(Program& program, const Mechanism& mechanism) {
         for (const ex& v : sliding_velocity(f)) velocities.push_back(v);
         restitutions.push_back(f.restitution);
     }
-    add(Group::slip, velocities);
-    add(Group::slip_acceleration, mechanism.time_derivative_without_acceleration(velocities));
+    add(Group::sliding_velocity, velocities);
+    add(Group::sliding_acceleration, mechanism.time_derivative_without_acceleration(velocities));
     add(Group::grip, restitutions);
-    const std::vector<int> slips = program.nodes_of(Group::slip);
+    const std::vector<int> sliding_velocities = program.nodes_of(Group::sliding_velocity);
     const int n = static_cast<int>(program.coordinates.size());
-    if (slips.empty()) return;
+    if (sliding_velocities.empty()) return;
     std::vector<int> rates;
     for (int i = 0; i < n; ++i) rates.push_back(program.variable({Variable::Kind::rate, i}));
-    const auto found = partials(program, slips, rates, EliminationOrder::forward);
-    std::vector<int> rows(slips.size() * rates.size(), program.number(0));
+    const auto found = partials(program, sliding_velocities, rates, EliminationOrder::forward);
+    std::vector<int> rows(sliding_velocities.size() * rates.size(), program.number(0));
     for (const Partial& one : found.value()) rows[static_cast<std::size_t>(one.output * n + one.input)] = one.node;
     for (const int entry : rows) program.roots.push_back({Group::form_row, "", entry});
 }
@@ -103,7 +103,7 @@ Program view_of(const Mechanism& mechanism) {
     Program program = lower(closed, routh(closed), energy, {.states_are_given = true});
     const auto is_wanted = [](const Root& root) {
         for (const Group group : {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position,
-                                  Group::velocity, Group::slip, Group::stick_bound, Group::friction})
+                                  Group::velocity, Group::sliding_velocity, Group::stick_bound, Group::friction})
             if (root.group == group) return true;
         return false;
     };
@@ -136,13 +136,13 @@ FunctionProgram contact_function(const Mechanism& mechanism) {
 
 namespace {
 
-constexpr double rate_at_rest = 1e-13;     // of rounding, as in lib/alembert/hybrid/contact.cpp
+constexpr double rate_at_rest = 1e-13;     // of rounding, as in lib/alembert/hybrid/lasting_contacts.cpp
 constexpr double negligible_slip = 1e-12;  // of a sliding velocity, relative to the sizes of its terms
 
 }  // namespace
 
-std::vector<ContactView::Rubbed> ContactView::contacts_of_frictions(const Mechanism& m) {
-    std::vector<Rubbed> result;
+std::vector<ContactView::ContactOfFriction> ContactView::contacts_of_frictions(const Mechanism& m) {
+    std::vector<ContactOfFriction> result;
     for (const Mechanism::Friction& f : m.frictions) {
         const auto found = std::find_if(m.unilateral.begin(), m.unilateral.end(), [&](const auto& contact) {
             return f.multiplier && contact.gap.multiplier.is_equal(*f.multiplier);
@@ -179,26 +179,26 @@ Situation ContactView::at(const State<double>& state) const {
     const Eigen::Index contacts = static_cast<Eigen::Index>(names_.size()), all = bilateral_ + contacts;
     Situation::Rows rows{.rows = Eigen::Map<const Rows>(row.data(), all, n_),
                          .value = of(Group::position),
-                         .drift = {},
+                         .offset = {},
                          .acceleration = of(Group::gamma)};
-    rows.drift = of(Group::velocity) - rows.rows * u;
+    rows.offset = of(Group::velocity) - rows.rows * u;
     std::vector<int> which(static_cast<std::size_t>(all));
     std::iota(which.begin(), which.end(), 0);
     here.bilateral = selected(rows, {which.begin(), which.begin() + bilateral_});
     here.contacts = selected(rows, {which.begin() + bilateral_, which.end()});
-    const Eigen::VectorXd slip = of(Group::slip), slip_row = of(Group::form_row), sliding = of(Group::friction),
-                          bound = of(Group::stick_bound), change = of(Group::slip_acceleration),
-                          grip = of(Group::grip);
+    const Eigen::VectorXd sliding_velocity = of(Group::sliding_velocity), sliding_rows = of(Group::form_row),
+                          sliding = of(Group::friction), bound = of(Group::stick_bound),
+                          change = of(Group::sliding_acceleration), grip = of(Group::grip);
     for (std::size_t k = 0, first = 0; k < rough_.size(); first += rough_[k++].components) {
         if (rough_[k].contact < 0) continue;
         const auto i = static_cast<Eigen::Index>(k), at = static_cast<Eigen::Index>(first),
                    count = static_cast<Eigen::Index>(rough_[k].components);
-        const Eigen::MatrixXd along = Eigen::Map<const Rows>(slip_row.data() + at * n_, count, n_);
-        const Eigen::VectorXd velocity = slip.segment(at, count);
+        const Eigen::MatrixXd along = Eigen::Map<const Rows>(sliding_rows.data() + at * n_, count, n_);
+        const Eigen::VectorXd velocity = sliding_velocity.segment(at, count);
         here.rough.push_back(
             {.contact = rough_[k].contact,
-             .slip = along,
-             .drift = velocity - along * u,
+             .tangent = along,
+             .offset = velocity - along * u,
              .velocity = velocity,
              .acceleration = -change.segment(at, count),
              .coefficient = sliding[i],
@@ -245,7 +245,7 @@ void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactVie
     if (!negative.empty()) fail(scene, negative);
 }
 
-Lasting contacts_at_rest(const ContactView& view, const State<double>& state, double tolerance) {
+LastingContacts contacts_at_rest(const ContactView& view, const State<double>& state, double tolerance) {
     const Situation here = view.at(state);
     const auto n = static_cast<Eigen::Index>(state.q.size());
     const Eigen::Map<const Eigen::VectorXd> q(state.q.data(), n), u(state.qdot.data(), n);
@@ -257,7 +257,7 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
         if (std::abs(here.contacts.value[i]) > slack[i] || std::abs(speed[i]) > still[i]) continue;
         closed.push_back(static_cast<int>(k));
     }
-    const Lasting lasting = lasting_contacts(here, closed);
+    const LastingContacts lasting = lasting_contacts(here, closed);
     if (!lasting && !closed.empty())
         throw IntegrationError(translated_from_library(refusal_of(lasting, state.t, closed, view.names())),
                                state.t, state.q);
@@ -266,7 +266,7 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
 
 // M q'' − f = Aᵀλ + Gᵀπ determines λ and π, except that bilateral rows may depend on each other.
 std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state,
-                                                const Lasting& lasting) {
+                                                const LastingContacts& lasting) {
     if (lasting.closed.empty()) return {};
     const Situation here = view.at(state);
     const auto closed = static_cast<Eigen::Index>(lasting.closed.size());

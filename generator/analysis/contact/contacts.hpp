@@ -6,15 +6,15 @@
 ///     // the gap of contact 0 is a holonomic constraint now
 ///     const Mechanism lying = with_closed(mechanism, {0});
 ///     const ContactView view(mechanism);
-///     const Situation here = view.at(state);                    // alembert/hybrid/contact.hpp
-///     const Lasting mode = contacts_at_rest(view, state, 1e-9); // what eval shows
+///     const Situation here = view.at(state);                    // alembert/hybrid/lasting_contacts.hpp
+///     const LastingContacts mode = contacts_at_rest(view, state, 1e-9); // what eval shows
 ///
 /// `with_closed` makes each contact mode an ordinary mechanism, which is derived, lowered and emitted in the same
 /// way as any other.
 
 #include <vector>
 
-#include "alembert/hybrid/contact.hpp"
+#include "alembert/hybrid/lasting_contacts.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
 #include "program/named_function.hpp"
@@ -48,12 +48,12 @@ public:
 private:
     Program program_;
     int n_, bilateral_;
-    struct Rubbed {
+    struct ContactOfFriction {
         int contact;             ///< −1 for a friction that is not at a contact
         std::size_t components;  ///< of its sliding velocity
     };
-    static std::vector<Rubbed> contacts_of_frictions(const Mechanism& mechanism);
-    std::vector<Rubbed> rough_;  ///< for each friction
+    static std::vector<ContactOfFriction> contacts_of_frictions(const Mechanism& mechanism);
+    std::vector<ContactOfFriction> rough_;  ///< for each friction
     std::vector<std::string> names_;
 };
 
@@ -69,11 +69,11 @@ void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactVie
                 const State<double>& state, double tolerance);
 
 /// The contacts that are closed and stay closed at this state. Throws IntegrationError if no choice is consistent.
-Lasting contacts_at_rest(const ContactView& view, const State<double>& state, double tolerance);
+LastingContacts contacts_at_rest(const ContactView& view, const State<double>& state, double tolerance);
 
 /// The names, in the order of the scene, of contacts in `lasting.closed` that touch without a force. On one side
 /// of the state they open and on the other they press, so that they do not act as constraints near it.
 std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state,
-                                                const Lasting& lasting);
+                                                const LastingContacts& lasting);
 
 }  // namespace alembert

@@ -38,9 +38,9 @@ class Numbers {
 public:
     explicit Numbers(const Mechanism& m) : m_(m), program_(program_of(m)) {
         std::vector<ex> wanted = m.generalized_impulses();
-        for (const Mechanism::Constraint& c : m.constraints) wanted.push_back(c.drift);
+        for (const Mechanism::Constraint& c : m.constraints) wanted.push_back(c.offset);
         for (const Mechanism::Unilateral& u : m.unilateral) {
-            wanted.insert(wanted.end(), {*u.gap.position, u.gap.drift, u.restitution});
+            wanted.insert(wanted.end(), {*u.gap.position, u.gap.offset, u.restitution});
             wanted.insert(wanted.end(), u.gap.row.begin(), u.gap.row.end());
         }
         nodes_ = lower_expressions(program_, m, wanted);
@@ -94,7 +94,7 @@ private:
 
     Eigen::Index rows(Group group) const { return static_cast<Eigen::Index>(program_.nodes_of(group).size()); }
     double wanted(Eigen::Index i) const { return value_[nodes_[i]]; }
-    /// The index of the first value of a unilateral constraint; its values are gap, drift, restitution, row.
+    /// The index of the first value of a unilateral constraint; its values are gap, offset, restitution, row.
     Eigen::Index first_of(std::size_t u) const {
         return static_cast<Eigen::Index>(m_.size() + m_.constraints.size() + u * (3 + m_.size()));
     }

@@ -11,8 +11,8 @@
 /// With p = ∂L/∂q̇ the impulse equations are Δp = M (q'⁺ − q'⁻) = Q̂ + AᵀΛ + GᵀΠ (Zhang & Qin (1-62), with
 /// multipliers); coordinates and time do not change, and finite forces do not enter. Bilateral constraints hold
 /// after the impact; a constraint that the rates before break is imposed suddenly. A contact is closed if its gap
-/// is zero; it obeys Newton's law of restitution. alembert/hybrid/impact.hpp describes the complete law, including
-/// several of these at the same instant.
+/// is zero; it obeys Newton's law of restitution. alembert/hybrid/frictionless_impact.hpp describes the complete
+/// law, including several of these at the same instant.
 ///
 /// As in claims with at = "impact", `x'` is the rate after the impact, `x'(-)` the rate before, and a multiplier
 /// the impulse of its reaction.
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/hybrid/impact.hpp"
+#include "alembert/hybrid/frictionless_impact.hpp"
 #include "algebra/notation/readable.hpp"
 #include "program/lower/start.hpp"
 
@@ -32,7 +32,7 @@ struct Impact {
     Start start;                        ///< t, q and the rates before
     std::vector<std::string> adjusted;  ///< a line for each guess that moved
     std::vector<int> contacts;          ///< the closed contacts, as positions in Mechanism::unilateral
-    ImpactResult numbers;               ///< the impulses of contacts in the order of `contacts`
+    FrictionlessImpact numbers;         ///< the impulses of contacts in the order of `contacts`
     double kinetic_before = 0, kinetic_after = 0;
     double floors = 0;                 ///< the work of moving constraints and gaps
     std::vector<std::string> imposed;  ///< constraints that the rates before break

@@ -63,7 +63,7 @@ private:
         const auto row = [&](const Mechanism::Constraint& c, bool contact, const ex& e, double value) {
             rows_.push_back({.name = c.name,
                              .a = exvector(c.row.begin(), c.row.end()),
-                             .b = c.drift,
+                             .b = c.offset,
                              .restitution = e,
                              .multiplier = c.multiplier,
                              .contact = contact,
@@ -318,13 +318,13 @@ private:
                         const exvector& conditions) {
         // The solution is compared with the numeric one, which was found by another route. Signs that only the
         // scene's values decide would show here.
-        double size = 0, misfit = 0;
+        double size = 0, residual = 0;
         for (std::size_t i = 0; i < n_; ++i) {
             const double after = impact_.numbers.after[static_cast<Eigen::Index>(i)];
             size = std::max({size, std::abs(after), std::abs(impact_.start.qdot[i])});
-            misfit = std::max(misfit, std::abs(number(x[i]) - after));
+            residual = std::max(residual, std::abs(number(x[i]) - after));
         }
-        if (!(misfit <= 1e-8 * size)) {
+        if (!(residual <= 1e-8 * size)) {
             impact_.silence = say("the solution in symbols does not agree with the numbers, so it is not shown");
             return true;
         }

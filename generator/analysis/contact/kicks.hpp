@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/hybrid/impulsive_event.hpp"
+#include "alembert/hybrid/impulsive_events.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
 

@@ -309,7 +309,7 @@ private:
     void constraints() {
         for (const Mechanism::Constraint& c : m_.constraints) {
             if (is_gap(c)) continue;
-            GiNaC::exvector terms{c.drift};
+            GiNaC::exvector terms{c.offset};
             for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
             const std::size_t k = result_.constraints.size();
             result_.constraints.emplace_back(c.name, Phrase());
@@ -336,8 +336,8 @@ private:
     void frictions() {
         for (const Mechanism::Friction& f : m_.frictions) {
             const std::size_t k = result_.frictions.size();
-            result_.frictions.push_back({.name = f.name, .slip = {}, .sliding = {}, .sticking = {}});
-            write(f.slip, [k](Derivation& d) -> Phrase& { return d.frictions[k].slip; });
+            result_.frictions.push_back({.name = f.name, .sliding_velocity = {}, .sliding = {}, .sticking = {}});
+            write(f.sliding_velocity, [k](Derivation& d) -> Phrase& { return d.frictions[k].sliding_velocity; });
             write(f.coefficient * f.normal, [k](Derivation& d) -> Phrase& { return d.frictions[k].sliding; });
             write(f.resting * f.normal, [k](Derivation& d) -> Phrase& { return d.frictions[k].sticking; });
             if (!f.across) continue;

@@ -51,7 +51,7 @@ struct Derivation {
     /// force of at most `sticking`.
     struct Rubs {
         std::string name;
-        Phrase slip, sliding, sticking;
+        Phrase sliding_velocity, sliding, sticking;
         std::optional<Phrase> across = {};  ///< the second component of the sliding velocity, if it has two
         /// The equations while it sticks and all others slide, with its force as a multiplier
         /// (scene/sticking.hpp), if they are readable; set by `derive`.

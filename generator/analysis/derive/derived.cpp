@@ -13,9 +13,9 @@
 #include "analysis/state/diagnose.hpp"
 #include "analysis/state/force_balance.hpp"
 #include "analysis/state/gimbal.hpp"
+#include "analysis/state/irregular_constraints.hpp"
 #include "analysis/state/redundancy.hpp"
 #include "analysis/state/speeds.hpp"
-#include "analysis/state/touching.hpp"
 #include "base/language/say.hpp"
 #include "base/language/screens.hpp"
 #include "model/formalism/elements.hpp"
@@ -117,7 +117,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     const double start = process_seconds();
     Derived d{prepared(std::move(scene), options.at, options.on_sheets, options.coordinates)};
     d.by = options.by;
-    refuse_touching(d.mechanism);
+    refuse_irregular_constraints(d.mechanism);
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
     for (const int k : redundant) d.warn(warning_of_redundancy(d, d.mechanism.constraints[k]));

@@ -80,7 +80,7 @@ bool Motions::solve_any(ExactState& state) const {
 
 void Motions::find_open_unknowns() {
     find_known_rows();
-    if (at_ != At::motion || !rubbed_.empty() || !obstacle_.empty()) return;
+    if (at_ != At::motion || !rows_with_friction_.empty() || !obstacle_.empty()) return;
     const auto size = static_cast<std::size_t>(n_ + m_);
     std::vector<int> wanted = system_.M;
     wanted.insert(wanted.end(), system_.A.begin(), system_.A.end());
@@ -146,7 +146,7 @@ bool Motions::move(ExactState& state, unsigned turned) const {
         state.exact = state.exact && at.exact;
     };
     std::vector<int> wanted = system_.A;
-    wanted.insert(wanted.end(), system_.drift.begin(), system_.drift.end());
+    wanted.insert(wanted.end(), system_.offset.begin(), system_.offset.end());
     const auto geometry = evaluate_mod(program_, state.point, wanted);
     if (!geometry) return false;
     note(*geometry);
@@ -154,7 +154,7 @@ bool Motions::move(ExactState& state, unsigned turned) const {
     for (std::size_t k = 0; k < m; ++k) {
         rows.emplace_back();
         for (std::size_t i = 0; i < n; ++i) rows.back().push_back(geometry->value[system_.A[k * n + i]]);
-        rows.back().push_back(-geometry->value[system_.drift[k]]);
+        rows.back().push_back(-geometry->value[system_.offset[k]]);
     }
     reduce_rows(rows, n);
     for (std::size_t i = 0; i < n; ++i)
@@ -176,7 +176,7 @@ bool Motions::move(ExactState& state, unsigned turned) const {
 bool Motions::accelerate(ExactState& state, unsigned turned) const {
     const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
     const auto press = [&](Prime size) {
-        for (const int k : rubbed_) state.point.given[{Variable::Kind::unknown, k}] = size;
+        for (const int k : rows_with_friction_) state.point.given[{Variable::Kind::unknown, k}] = size;
     };
     press(0);
     std::vector<int> wanted = system_.M;
@@ -200,7 +200,7 @@ bool Motions::accelerate(ExactState& state, unsigned turned) const {
     }
     // What friction adds to f for |λ| = 1.
     std::vector<std::vector<Prime>> friction;
-    for (const int k : rubbed_) {
+    for (const int k : rows_with_friction_) {
         press(0);
         state.point.given[{Variable::Kind::unknown, k}] = 1;
         const auto pressed = evaluate_mod(program_, state.point, system_.f);
@@ -212,13 +212,14 @@ bool Motions::accelerate(ExactState& state, unsigned turned) const {
             entry = std::max(entry, pressed->degree[system_.f[i]]);
         }
     }
-    const std::uint64_t choices = std::uint64_t{1} << rubbed_.size(), first = state.point.random(900, 0).bits();
+    const std::uint64_t choices = std::uint64_t{1} << rows_with_friction_.size(),
+                        first = state.point.random(900, 0).bits();
     for (std::uint64_t choice = 0; choice < choices; ++choice) {
         const auto is_negative = [&](std::size_t r) { return (((first ^ choice) >> r) & 1U) != 0; };
         std::vector<std::vector<Prime>> system = rows;
-        for (std::size_t r = 0; r < rubbed_.size(); ++r)
+        for (std::size_t r = 0; r < rows_with_friction_.size(); ++r)
             for (std::size_t i = 0; i < n; ++i) {
-                Prime& entry_of_lambda = system[i][n + static_cast<std::size_t>(rubbed_[r])];
+                Prime& entry_of_lambda = system[i][n + static_cast<std::size_t>(rows_with_friction_[r])];
                 entry_of_lambda =
                     is_negative(r) ? entry_of_lambda + friction[r][i] : entry_of_lambda - friction[r][i];
             }
@@ -231,22 +232,23 @@ bool Motions::accelerate(ExactState& state, unsigned turned) const {
         for (std::size_t r = n + m; r < system.size(); ++r)
             if (!system[r][n + m].is_zero()) return false;
         const auto has_sign = [&](std::size_t r) {
-            const Prime lambda = system[n + static_cast<std::size_t>(rubbed_[r])][n + m];
+            const Prime lambda = system[n + static_cast<std::size_t>(rows_with_friction_[r])][n + m];
             const bool is_positive = lambda.is_square() != (((turned >> r) & 1U) != 0);
             return !lambda.is_zero() && lambda.is_plain() && is_positive != is_negative(r);
         };
         bool fits = true;
-        for (std::size_t r = 0; r < rubbed_.size(); ++r) fits = fits && has_sign(r);
+        for (std::size_t r = 0; r < rows_with_friction_.size(); ++r) fits = fits && has_sign(r);
         if (!fits) continue;
         for (std::size_t i = 0; i < n; ++i)
             state.point.given[{Variable::Kind::acceleration, static_cast<int>(i)}] = system[i][n + m];
         for (std::size_t k = 0; k < m; ++k)
             state.point.given[{Variable::Kind::unknown, static_cast<int>(k)}] = system[n + k][n + m];
         state.degree *= static_cast<double>(n + m) * entry + right + 1;
-        for (std::size_t r = 0; r < rubbed_.size(); ++r)
+        for (std::size_t r = 0; r < rows_with_friction_.size(); ++r)
             if (((turned >> r) & 1U) != 0)
-                state.point.turned.push_back(system[n + static_cast<std::size_t>(rubbed_[r])][n + m]);
-        state.conditions += static_cast<double>(rubbed_.size()) + 1;  // and squares have twice the degree
+                state.point.turned.push_back(system[n + static_cast<std::size_t>(rows_with_friction_[r])][n + m]);
+        state.conditions +=
+            static_cast<double>(rows_with_friction_.size()) + 1;  // and squares have twice the degree
         return true;
     }
     return false;

@@ -37,7 +37,7 @@ std::vector<ex> balance_at_rest(const Mechanism& m, const Equations& e) {
         balance.push_back(GiNaC::add(std::move(terms)));
     }
     for (std::size_t k = 0; k < e.A.size(); ++k) {
-        balance.push_back(at_rest(m.constraints[k].drift));
+        balance.push_back(at_rest(m.constraints[k].offset));
         balance.push_back(at_rest(e.gamma[k]));
     }
     for (const Mechanism::State& state : m.states) balance.push_back(at_rest(state.rate));
@@ -57,7 +57,7 @@ void need_determined_reactions(const Mechanism& m) {
 }
 
 /// The rows on which friction acts whose normal force is their reaction.
-std::vector<int> rubbed_rows(const Mechanism& m, const Equations& e) {
+std::vector<int> find_rows_with_friction(const Mechanism& m, const Equations& e) {
     std::vector<int> rows;
     for (std::size_t k = 0; k < e.lambda.size(); ++k) {
         const auto rubs = [&](const Mechanism::Friction& f) {
@@ -79,8 +79,8 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
       m_(static_cast<int>(e.A.size())),
       halves_(sampling.halves) {
     const Mechanism m = in_terms_of(e, mechanism);
-    rubbed_ = rubbed_rows(m, e);
-    if (!rubbed_.empty()) need_determined_reactions(m);
+    rows_with_friction_ = find_rows_with_friction(m, e);
+    if (!rows_with_friction_.empty()) need_determined_reactions(m);
     for (const Mechanism::Parameter& p : m.parameters)
         if (p.independent) own_values_.push_back(p.number());
     std::vector<ex> list;
@@ -88,7 +88,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
         for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));
     for (int i = 0; i < n_; ++i) list.push_back(e.forcing(i));
     for (const auto& row : e.A) list.insert(list.end(), row.begin(), row.end());
-    for (int k = 0; k < m_; ++k) list.push_back(m.constraints[k].drift);
+    for (int k = 0; k < m_; ++k) list.push_back(m.constraints[k].offset);
     list.insert(list.end(), e.gamma.begin(), e.gamma.end());
     for (int k = 0; k < m_; ++k)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
@@ -102,7 +102,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
     for (const Mechanism::Constraint* c : m.undetermined())
         given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
     if (at_ != At::rest)
-        for (const int k : rubbed_)
+        for (const int k : rows_with_friction_)
             given.emplace_back(e.lambda[static_cast<std::size_t>(k)],
                                program_.variable({Variable::Kind::unknown, k}));
     for (const auto& [call, value] : held_functions(m))
@@ -117,7 +117,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
     system_.M = take(n_ * n_);
     system_.f = take(n_);
     system_.A = take(m_ * n_);
-    system_.drift = take(m_);
+    system_.offset = take(m_);
     system_.gamma = take(m_);
     const auto redundant = static_cast<std::ptrdiff_t>(m.redundant.size() * m.q.size());
     gaps_ = static_cast<int>(m.unilateral.size());
@@ -144,7 +144,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
 }
 
 void Motions::find_usable_points(std::vector<int> nodes, int halvings) {
-    std::set<SquarePoints::Key> solved;
+    std::set<QuadraticResiduePoints::Key> solved;
     for (const SolvingStep& step : steps_) {
         nodes.push_back(step.node);
         solved.insert({step.variable.kind, step.variable.index});
@@ -154,7 +154,7 @@ void Motions::find_usable_points(std::vector<int> nodes, int halvings) {
     }
     nodes.insert(nodes.end(), loose_.begin(), loose_.end());
     finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, nodes)) - halves_);
-    usable_.emplace(std::vector{SquarePoints::Part{&program_, std::move(nodes)}}, solved);
+    usable_.emplace(std::vector{QuadraticResiduePoints::Part{&program_, std::move(nodes)}}, solved);
 }
 
 void Motions::order(const std::vector<int>& conditions) {

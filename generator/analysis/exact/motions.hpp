@@ -61,8 +61,8 @@
 
 #include "analysis/exact/exact_state.hpp"
 #include "analysis/exact/own_point.hpp"
+#include "analysis/exact/quadratic_residue_points.hpp"
 #include "analysis/exact/solving_order.hpp"
-#include "analysis/exact/square_points.hpp"
 #include "model/formalism/equations.hpp"
 
 namespace alembert {
@@ -73,8 +73,8 @@ public:
     enum class Positions { solved, free };
 
     /// Which states are drawn. Angles that are solved for may occur divided by up to 2^halves, and all others by
-    /// up to 2^halvings (analysis/exact/square_points.hpp), in the equations and in the expressions that will be
-    /// evaluated.
+    /// up to 2^halvings (analysis/exact/quadratic_residue_points.hpp), in the equations and in the expressions
+    /// that will be evaluated.
     struct Sampling {
         At at = At::motion;
         int halves = 0, halvings = 0;
@@ -93,7 +93,7 @@ public:
         std::map<Prime, PrimeTurn> angles;
     };
     /// Nothing for an unusable seed: there is no root in the field, or a denominator is zero. Bit r of `turned`:
-    /// the multiplier of row rubbed()[r] has the sign opposite to Legendre's symbol.
+    /// the multiplier of row rows_with_friction()[r] has the sign opposite to Legendre's symbol.
     std::optional<ExactState> at(std::uint64_t seed, const Given& given, unsigned turned = 0) const;
     std::optional<ExactState> at(std::uint64_t seed, unsigned turned = 0) const {
         return at(seed, Given{.values = {}, .angles = {}}, turned);
@@ -131,11 +131,11 @@ public:
 
     /// The entries of the system as nodes, which can also be evaluated in other arithmetic.
     struct System {
-        std::vector<int> M;             ///< n·n, by rows
-        std::vector<int> f;             ///< n
-        std::vector<int> A;             ///< m·n, by rows
-        std::vector<int> drift, gamma;  ///< m
-        std::vector<int> redundant;     ///< rows of Mechanism::redundant, n each
+        std::vector<int> M;              ///< n·n, by rows
+        std::vector<int> f;              ///< n
+        std::vector<int> A;              ///< m·n, by rows
+        std::vector<int> offset, gamma;  ///< m
+        std::vector<int> redundant;      ///< rows of Mechanism::redundant, n each
     };
     const Program& program() const { return program_; }
     const System& entries() const { return system_; }
@@ -150,7 +150,7 @@ public:
     }
     /// The rows on which friction acts, in ascending order: `f` contains the absolute values of their multipliers,
     /// linearly, and no other multiplier of the equations.
-    const std::vector<int>& rubbed() const { return rubbed_; }
+    const std::vector<int>& rows_with_friction() const { return rows_with_friction_; }
     /// Whether signs, absolute values, min or max decide in the equations or the constraints.
     bool has_sides() const { return has_sides_; }
     /// The columns of the system of accelerations and multipliers that the equations leave open at every state.
@@ -201,7 +201,7 @@ private:
     std::vector<SolvingStep> steps_;
     std::vector<SolvingOrder> other_orders_, contradicted_;  ///< at rest, of other factors
     bool is_lost_ = false;  ///< whether a factor lacks the variable for which its equation is solved
-    std::vector<int> loose_, implied_, rubbed_;
+    std::vector<int> loose_, implied_, rows_with_friction_;
     std::vector<bool> irreducible_;  ///< for each step
     std::vector<std::size_t> open_unknowns_;
     std::vector<std::vector<std::size_t>> known_rows_;  ///< that become known before each step, and after the last
@@ -211,8 +211,8 @@ private:
     std::string obstacle_;
     At at_;
     int n_ = 0, m_ = 0, gaps_ = 0, halves_ = 0, finer_ = 0;
-    std::vector<GiNaC::numeric> own_values_;  ///< of each independent parameter
-    std::optional<SquarePoints> usable_;      ///< refers to program_
+    std::vector<GiNaC::numeric> own_values_;        ///< of each independent parameter
+    std::optional<QuadraticResiduePoints> usable_;  ///< refers to program_
 };
 
 }  // namespace alembert

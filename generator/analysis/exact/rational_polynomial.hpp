@@ -4,8 +4,7 @@
 /// Polynomials over the rational numbers that are known by their values, and their factors.
 ///
 ///     const auto f = polynomial_through(values, {{X, .turned = true}, {Y}});
-///     const auto g = own_factor(*f, X, root);      // the irreducible factor that vanishes at a root known in
-///     digits
+///     own_factor(*f, X, root)      // the irreducible factor that vanishes at a root known in digits
 
 #include <functional>
 #include <optional>

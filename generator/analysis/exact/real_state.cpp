@@ -225,8 +225,8 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
 bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numbers) {
     const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
     const Motions::System& s = motions.entries();
-    const std::vector<int>& rubbed = motions.rubbed();
-    for (const int k : rubbed) state.value[{Variable::Kind::unknown, k}] = 0;
+    const std::vector<int>& rows_with_friction = motions.rows_with_friction();
+    for (const int k : rows_with_friction) state.value[{Variable::Kind::unknown, k}] = 0;
     std::vector<int> roots = s.M;
     for (const auto* part : {&s.f, &s.A, &s.gamma}) roots.insert(roots.end(), part->begin(), part->end());
     const auto value = evaluate(motions.program(), state, roots);
@@ -242,7 +242,7 @@ bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numb
     }
     for (std::size_t k = 0; k < m; ++k) rows[n + k][n + m] = (*value)[n * n + n + m * n + k];
     std::vector<std::vector<numeric>> friction;
-    for (const int k : rubbed) {
+    for (const int k : rows_with_friction) {
         state.value[{Variable::Kind::unknown, k}] = 1;
         const auto pressed = evaluate(motions.program(), state, s.f);
         state.value[{Variable::Kind::unknown, k}] = 0;
@@ -250,13 +250,14 @@ bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numb
         friction.emplace_back();
         for (std::size_t i = 0; i < n; ++i) friction.back().push_back((*pressed)[i] - rows[i][n + m]);
     }
-    const unsigned choices = 1U << rubbed.size(), first = rubbed.empty() ? 0 : numbers.choice(choices);
+    const unsigned choices = 1U << rows_with_friction.size(),
+                   first = rows_with_friction.empty() ? 0 : numbers.choice(choices);
     for (unsigned choice = 0; choice < choices; ++choice) {
         std::vector<std::vector<numeric>> system = rows;
         const auto sign = [&](std::size_t r) { return (((first ^ choice) >> r) & 1U) != 0 ? -1 : 1; };
-        for (std::size_t r = 0; r < rubbed.size(); ++r)
+        for (std::size_t r = 0; r < rows_with_friction.size(); ++r)
             for (std::size_t i = 0; i < n; ++i)
-                system[i][n + static_cast<std::size_t>(rubbed[r])] -= sign(r) * friction[r][i];
+                system[i][n + static_cast<std::size_t>(rows_with_friction[r])] -= sign(r) * friction[r][i];
         auto solution = solve_rows(system, n + m);  // on another branch all may be determined
         if (!solution && !motions.open_unknowns().empty()) {
             for (const std::size_t k : motions.open_unknowns()) {
@@ -268,8 +269,8 @@ bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numb
         }
         if (!solution) return false;
         bool fits = true;
-        for (std::size_t r = 0; r < rubbed.size(); ++r)
-            fits = fits && (*solution)[n + static_cast<std::size_t>(rubbed[r])].csgn() * sign(r) > 0;
+        for (std::size_t r = 0; r < rows_with_friction.size(); ++r)
+            fits = fits && (*solution)[n + static_cast<std::size_t>(rows_with_friction[r])].csgn() * sign(r) > 0;
         if (!fits) continue;
         for (std::size_t i = 0; i < n; ++i)
             state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
@@ -292,7 +293,7 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers, Ra
     if (m > 0) {
         // The rates nearest to the chosen ones would be fractions of large numbers. Therefore the equations are
         // solved for the rates of the pivots.
-        const auto A = evaluate(motions.program(), state, s.A), b = evaluate(motions.program(), state, s.drift);
+        const auto A = evaluate(motions.program(), state, s.A), b = evaluate(motions.program(), state, s.offset);
         if (!A || !b) return false;
         std::vector<std::size_t> pivots;
         std::vector<std::vector<numeric>> rows(m, std::vector<numeric>(n));
@@ -359,7 +360,7 @@ struct AllVariables {
         const Motions::System& s = motions.entries();
         std::vector<int> entries = s.M;
         for (const auto* part :
-             {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant, &motions.loose(), &motions.implied()})
+             {&s.f, &s.A, &s.offset, &s.gamma, &s.redundant, &motions.loose(), &motions.implied()})
             entries.insert(entries.end(), part->begin(), part->end());
         for (const SolvingStep& step : motions.steps()) entries.push_back(step.node);
         find_variables(motions.program(), entries, angles, plain);

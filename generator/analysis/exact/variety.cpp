@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/exact/quadratic_residue_points.hpp"
 #include "analysis/exact/solve_condition.hpp"
 #include "analysis/exact/solving_order.hpp"
-#include "analysis/exact/square_points.hpp"
 
 namespace alembert {
 
@@ -26,7 +26,7 @@ public:
             solved.insert({step.variable.kind, step.variable.index});
             if (step.second) solved.insert({step.second->variable.kind, step.second->variable.index});
         }
-        usable_.emplace(std::vector{SquarePoints::Part{&program_, all_}}, solved);
+        usable_.emplace(std::vector{QuadraticResiduePoints::Part{&program_, all_}}, solved);
     }
 
     bool has_order() const { return order_.left.empty(); }
@@ -73,7 +73,7 @@ private:
     std::vector<int> positions_, all_;
     std::map<Key, Prime> given_;
     SolvingOrder order_;
-    std::optional<SquarePoints> usable_;
+    std::optional<QuadraticResiduePoints> usable_;
 };
 
 }  // namespace

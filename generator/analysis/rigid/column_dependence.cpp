@@ -6,7 +6,7 @@
 
 #include "alembert/base/error.hpp"
 #include "analysis/exact/motions.hpp"
-#include "analysis/exact/square_points.hpp"
+#include "analysis/exact/quadratic_residue_points.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/routh.hpp"
 #include "program/lower/lower.hpp"
@@ -51,7 +51,7 @@ RegressorColumns::RegressorColumns(const Regressor& y, std::vector<std::size_t> 
     for (const Mechanism::Constraint& c : m.constraints) {
         list.push_back(c.position.value_or(0));
         list.insert(list.end(), c.row.begin(), c.row.end());
-        list.insert(list.end(), {c.drift, c.acceleration});
+        list.insert(list.end(), {c.offset, c.acceleration});
     }
     const std::vector<int> nodes = lower_expressions(c_.program, with_own_intermediates(m), list);
     for (std::size_t k = 0, next = 0; k < m.constraints.size(); ++k) {
@@ -61,7 +61,7 @@ RegressorColumns::RegressorColumns(const Regressor& y, std::vector<std::size_t> 
         }
         ++next;
         for (int i = 0; i < m.size(); ++i) c_.rows.push_back(nodes[next++]);
-        c_.drift.push_back(nodes[next++]);
+        c_.offset.push_back(nodes[next++]);
         c_.gamma.push_back(nodes[next++]);
     }
     const int halves = std::max(halvings(p_, nodes_), halvings(c_.program, nodes));
@@ -95,7 +95,7 @@ std::vector<int> RegressorColumns::used_parameters() const {
 
 /// Random rates and accelerations that obey the rows, and a basis of the motions that these allow.
 bool RegressorColumns::move(ModularPoint& point, Rows& free_motions) const {
-    const std::size_t n = p_.coordinates.size(), m = c_.drift.size();
+    const std::size_t n = p_.coordinates.size(), m = c_.offset.size();
     const auto solve = [&](Variable::Kind kind, const std::vector<int>& right, int sign, Rows* basis) {
         std::vector<int> wanted = c_.rows;
         wanted.insert(wanted.end(), right.begin(), right.end());
@@ -135,7 +135,7 @@ bool RegressorColumns::move(ModularPoint& point, Rows& free_motions) const {
         for (std::size_t i = 0; i < n; ++i) point.given[{kind, static_cast<int>(i)}] = values[i];
         return true;
     };
-    return solve(Variable::Kind::rate, c_.drift, -1, &free_motions) &&
+    return solve(Variable::Kind::rate, c_.offset, -1, &free_motions) &&
            solve(Variable::Kind::acceleration, c_.gamma, 1, nullptr);
 }
 
@@ -156,7 +156,7 @@ ModularPoint RegressorColumns::free_point(const Given& parameters, std::uint64_t
 /// Positions that obey the constraints, if there are any.
 std::vector<ModularPoint> RegressorColumns::states(const Given& parameters, std::size_t count) const {
     std::vector<ModularPoint> result;
-    if (c_.drift.empty()) {
+    if (c_.offset.empty()) {
         for (std::uint64_t seed = 1; seed <= count; ++seed) result.push_back(free_point(parameters, seed));
         return result;
     }
@@ -172,25 +172,25 @@ std::optional<ColumnDependence> RegressorColumns::dependence(const std::vector<P
     Given given;
     for (std::size_t k = 0; k < parameters.size(); ++k)
         given[{Variable::Kind::parameter, static_cast<int>(k)}] = parameters[k];
-    const std::size_t free = std::max<std::size_t>(1, n > c_.drift.size() ? n - c_.drift.size() : 1),
+    const std::size_t free = std::max<std::size_t>(1, n > c_.offset.size() ? n - c_.offset.size() : 1),
                       wanted = width / free + 4;
     Rows rows;
     std::size_t used = 0;
     for (ModularPoint& state : states(given, wanted + most_tries)) {
         if (used == wanted) break;
         Rows motions;
-        if (!c_.drift.empty() && !move(state, motions)) continue;
+        if (!c_.offset.empty() && !move(state, motions)) continue;
         const auto at = evaluate_mod(p_, state, nodes_);
         if (!at) continue;
         ++used;
         const auto entry = [&](std::size_t i, std::size_t k) {
             return at->value[static_cast<std::size_t>(nodes_[i * width + k])];
         };
-        for (std::size_t i = 0; i < (c_.drift.empty() ? n : motions.size()); ++i) {
+        for (std::size_t i = 0; i < (c_.offset.empty() ? n : motions.size()); ++i) {
             rows.emplace_back();
             for (const std::size_t k : order_) {
                 Prime sum = 0;
-                if (c_.drift.empty())
+                if (c_.offset.empty())
                     sum = entry(i, k);
                 else
                     for (std::size_t j = 0; j < n; ++j) sum += motions[i][j] * entry(j, k);

@@ -51,7 +51,7 @@ public:
         std::vector<int> positions;        ///< f(q, t) of those that are holonomic
         std::vector<Eigen::Index> row_of;  ///< the row of each of these
         std::vector<int> rows;             ///< A, by rows
-        std::vector<int> drift, gamma;     ///< of A q' + drift = 0 and A q'' = gamma
+        std::vector<int> offset, gamma;    ///< of A q' + offset = 0 and A q'' = gamma
     };
     const Constraints& constraints() const { return c_; }
 

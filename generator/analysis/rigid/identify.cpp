@@ -37,7 +37,7 @@ MatrixXd matrix(const std::vector<double>& values, const std::vector<int>& nodes
 /// a basis of the motions that they allow; nothing if the method does not converge.
 std::optional<MatrixXd> constrained(State<double>& state, const RegressorColumns::Constraints& c) {
     const auto n = static_cast<Index>(state.q.size());
-    if (c.drift.empty()) return MatrixXd::Identity(n, n);
+    if (c.offset.empty()) return MatrixXd::Identity(n, n);
     const auto map = [](std::vector<double>& v) {
         return Eigen::Map<VectorXd>(v.data(), static_cast<Index>(v.size()));
     };
@@ -55,8 +55,8 @@ std::optional<MatrixXd> constrained(State<double>& state, const RegressorColumns
     const MatrixXd A = matrix(value, c.rows, n);
     const MatrixXd to_obey = least_norm(A, MatrixXd::Identity(A.rows(), A.rows())).x,
                    allowed = MatrixXd::Identity(n, n) - to_obey * A;
-    const VectorXd rates = map(state.qdot), accelerations = map(state.qddot), drift = matrix(value, c.drift, 1);
-    map(state.qdot) = allowed * rates - to_obey * drift;
+    const VectorXd rates = map(state.qdot), accelerations = map(state.qddot), offset = matrix(value, c.offset, 1);
+    map(state.qdot) = allowed * rates - to_obey * offset;
     value = interpret(c.program, state);
     const VectorXd gamma = matrix(value, c.gamma, 1);
     map(state.qddot) = allowed * accelerations + to_obey * gamma;
@@ -70,7 +70,7 @@ MatrixXd coefficients_in_doubles(const Regressor& y, const std::vector<std::size
     const Program& p = y.function.program;
     const std::vector<int> nodes = p.nodes_of(Group::function);
     const auto width = static_cast<Index>(order.size()), each = static_cast<Index>(y.function.rows),
-               free = std::max<Index>(1, each - static_cast<Index>(constraints.drift.size())),
+               free = std::max<Index>(1, each - static_cast<Index>(constraints.offset.size())),
                states = 3 * width / free + 4;
     MatrixXd W = MatrixXd::Zero(states * each, width);
     std::mt19937_64 random(1);

@@ -170,13 +170,13 @@ private:
         start_.qdot.assign(start_.qdot.size(), 0);
         for (int round = 0; round < 2; ++round) {  // the second round removes what rounding left in the first
             const std::vector<double> value = interpret(p_, start_.state());
-            Eigen::VectorXd misfit(m);
+            Eigen::VectorXd residual(m);
             Eigen::MatrixXd J(m, n);
             for (Eigen::Index k = 0; k < m; ++k) {
-                misfit[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
+                residual[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
                 for (Eigen::Index j = 0; j < n; ++j) J(k, j) = value[rows[k * n + j]];
             }
-            const LeastNorm change = least_norm(J, misfit);
+            const LeastNorm change = least_norm(J, residual);
             if (change.rank < n)
                 throw IntegrationError(say("the speeds do not determine the rates at the start: their forms, with "
                                            "the constraints, lose "
@@ -189,7 +189,7 @@ private:
         }
         const std::vector<double> value = interpret(p_, start_.state()), size = sizes_of_terms(p_, start_.state());
         for (std::size_t k = 0; k < speeds.size(); ++k) {
-            const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
+            const double residual = std::abs(value[speeds[k]] - start_.speeds[k]);
             double row = 0,
                    largest = 0;  // the terms may all be zero, except for the rounding of the solution
             for (Eigen::Index j = 0; j < n; ++j) {
@@ -197,11 +197,12 @@ private:
                 largest = std::max(largest, std::abs(start_.qdot[j]));
             }
             const double rounding = 64 * std::numeric_limits<double>::epsilon() * row * largest;
-            if (!(misfit <= tolerance::initial_values * (size[speeds[k]] + std::abs(start_.speeds[k])) + rounding))
+            if (!(residual <=
+                  tolerance::initial_values * (size[speeds[k]] + std::abs(start_.speeds[k])) + rounding))
                 throw ModelError(
                     say("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
                         "constraints leave it off by {:.6g} at these coordinates",
-                        m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
+                        m_.speeds[k].u.get_name(), start_.speeds[k], residual));
         }
     }
 
@@ -236,9 +237,9 @@ private:
                     J(k, j) = counts && !(std::abs(entry) < least) ? entry : 0;
                 }
             }
-            const double misfit = f.lpNorm<Eigen::Infinity>();
-            if (!(misfit > 0) || (misfit < 1e-12 && misfit > former / 2)) break;
-            former = misfit;
+            const double residual = f.lpNorm<Eigen::Infinity>();
+            if (!(residual > 0) || (residual < 1e-12 && residual > former / 2)) break;
+            former = residual;
             Eigen::VectorXd step = least_norm(J, f).x;
             // Far from the solution a full step may turn an angle by whole revolutions.
             if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1)
@@ -281,22 +282,22 @@ private:
         const std::vector<double> value = interpret(p_, state);
         std::vector<double> size, rounded;  // computed when the terms that are left do not suffice
         for (std::size_t k = 0; k < nodes.size(); ++k) {
-            const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= tolerance::initial_values * size_of_terms(p_, nodes[k], value)) continue;
+            const double residual = std::abs(value[nodes[k]]);
+            if (residual <= tolerance::initial_values * size_of_terms(p_, nodes[k], value)) continue;
             if (size.empty()) {
                 size = sizes_of_terms(p_, state);
                 rounded = rounding_errors(p_, state);
             }
-            if (misfit <= tolerance::initial_values * size[nodes[k]] + rounding(k, x, value) + rounded[nodes[k]])
+            if (residual <= tolerance::initial_values * size[nodes[k]] + rounding(k, x, value) + rounded[nodes[k]])
                 continue;
-            if (!std::isfinite(misfit))
+            if (!std::isfinite(residual))
                 throw BrokenConstraint(
                     say("constraint '{}' is not finite at the start: it divides by zero there, or takes "
                         "a root or a logarithm of what has none; give other initial values",
                         m_.constraints[k].name),
                     m_.constraints[k].place);
             const std::string what =
-                say("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
+                say("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, residual);
             if (guessed)
                 throw IntegrationError(say("{}: the guesses do not converge to a state that obeys it; try others, "
                                            "or let more values move",

@@ -131,14 +131,14 @@ void LeftOut::check_position(const State<double>& state) const {
     const auto length = [&](int k) { return row(k).norm(); };
     const auto terms = [&](int k) { return size[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])]; };
     for (int k = both_->count_kept; k < both_->count; ++k) {
-        const double misfit = std::abs(value[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])]);
+        const double residual = std::abs(value[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])]);
         const bool nearly = both_->constraints[static_cast<std::size_t>(k)].nearly.has_value();
         // The terms may all be zero, and their rounding is that of the coordinates.
-        if (misfit >
+        if (residual >
             (nearly ? looser_near * tolerance::nearly_dependent_row *
                           scale_of_row(both_->constraints, k, length, terms)
                     : looser * tolerance::initial_values * (terms(k) + row(k).lpNorm<1>() * size_of(state.q))))
-            refuse(k, misfit);
+            refuse(k, residual);
     }
 }
 
@@ -149,7 +149,7 @@ void LeftOut::check_row(const State<double>& state) const {
                            positions = p.nodes_of(Group::position);
     const auto n = static_cast<Eigen::Index>(state.q.size());
     Eigen::MatrixXd A(both_->count, n);
-    Eigen::VectorXd drift(both_->count), size(both_->count);
+    Eigen::VectorXd offset(both_->count), size(both_->count);
     for (Eigen::Index k = 0; k < both_->count; ++k) {
         const int node = rates[static_cast<std::size_t>(k)];
         double carried = 0;
@@ -157,10 +157,10 @@ void LeftOut::check_row(const State<double>& state) const {
             A(k, i) = value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k * n + i)])];
             carried += A(k, i) * state.qdot[static_cast<std::size_t>(i)];
         }
-        drift[k] = value[static_cast<std::size_t>(node)] - carried;
+        offset[k] = value[static_cast<std::size_t>(node)] - carried;
         size[k] = sizes[static_cast<std::size_t>(node)];
     }
-    if (!A.allFinite() || !drift.allFinite()) return;  // a pole, of which others tell
+    if (!A.allFinite() || !offset.allFinite()) return;  // a pole, of which others tell
     const Eigen::MatrixXd kept = A.topRows(both_->count_kept);
     for (Eigen::Index k = both_->count_kept; k < both_->count; ++k) {
         const Eigen::RowVectorXd row = A.row(k);
@@ -178,7 +178,7 @@ void LeftOut::check_row(const State<double>& state) const {
         }
         if (apart > looser * tolerance::dependent_row * row.norm() + tolerance::vanished_row * A.norm())
             refuse(static_cast<int>(k), apart);
-        const double early = std::abs(drift[k] - share.dot(drift.head(both_->count_kept)));
+        const double early = std::abs(offset[k] - share.dot(offset.head(both_->count_kept)));
         const double terms = size[k] + share.cwiseAbs().dot(size.head(both_->count_kept));
         if (early > looser * tolerance::initial_values * terms) refuse(static_cast<int>(k), early);
     }
@@ -201,11 +201,11 @@ std::vector<bool> tied_parameters(const Mechanism& mechanism, const Start& start
     return tied;
 }
 
-void LeftOut::refuse(int constraint, double misfit) const {
+void LeftOut::refuse(int constraint, double residual) const {
     throw ModelError(
         say("constraint '{}' follows from the others at the values of the scene, but is off by {:.6g} at these: "
             "what was added or left out for the scene does not hold there",
-            both_->constraints[static_cast<std::size_t>(constraint)].name, misfit));
+            both_->constraints[static_cast<std::size_t>(constraint)].name, residual));
 }
 
 }  // namespace alembert

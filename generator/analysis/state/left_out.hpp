@@ -26,7 +26,7 @@ public:
 
     /// Throws ModelError if a position that was left out is off at `start`, after all its coordinates have been
     /// moved onto the constraints that are kept. Where parameters of constraints have other values than in the
-    /// scene, it also must not be off at states around that one, and its row and drift must follow from the kept
+    /// scene, it also must not be off at states around that one, and its row and offset must follow from the kept
     /// ones there. Nothing is checked if no state obeys the kept ones.
     void check(const Start& start) const;
 
@@ -52,7 +52,7 @@ private:
     bool move_onto_kept(Start& start) const;
     void check_position(const State<double>& state) const;
     void check_row(const State<double>& state) const;
-    [[noreturn]] void refuse(int constraint, double misfit) const;
+    [[noreturn]] void refuse(int constraint, double residual) const;
 
     std::optional<Both> both_;  ///< nothing if nothing was left out
     std::optional<Whole> whole_;

@@ -89,15 +89,15 @@ private:
         if (!std::isfinite(size) || size == 0) return Acts::unknown;
         const std::span<double> rates = std::span(state.qdot).first(m_.q.size());
         std::fill(rates.begin(), rates.end(), 0);
-        const Numbers drift = values_of(velocity);
+        const Numbers offset = values_of(velocity);
         for (double& rate : rates) {
             rate = 1;
             const Numbers v = values_of(velocity);
             rate = 0;
             double sum = 0, speed = 0;
             for (std::size_t k = 0; k < F.size(); ++k) {
-                sum += F[k] * (v[k] - drift[k]);
-                speed += std::abs(v[k]) + std::abs(drift[k]);
+                sum += F[k] * (v[k] - offset[k]);
+                speed += std::abs(v[k]) + std::abs(offset[k]);
             }
             if (!std::isfinite(sum)) return Acts::unknown;
             if (std::abs(sum) > rounding_share * size * speed) return Acts::yes;

@@ -150,11 +150,11 @@ private:
         const std::vector<double> rest = rests(rows.A, candidates);
         std::vector<int> result;
         for (const int k : candidates) {
-            const double misfit = std::abs(rows.position[k]), size = rows.A.row(k).norm();
+            const double residual = std::abs(rows.position[k]), size = rows.A.row(k).norm();
             const bool follows = size > near &&
                                  rest[static_cast<std::size_t>(k)] <= tolerance::dependent_row * size &&
-                                 misfit <= tolerance::initial_values;
-            if (rest[static_cast<std::size_t>(k)] <= near && misfit <= near && !follows) result.push_back(k);
+                                 residual <= tolerance::initial_values;
+            if (rest[static_cast<std::size_t>(k)] <= near && residual <= near && !follows) result.push_back(k);
         }
         return result;
     }
@@ -185,10 +185,10 @@ private:
 double scale_of_row(const std::vector<Mechanism::Constraint>& constraints, int k,
                     const std::function<double(int)>& row, const std::function<double(int)>& terms) {
     const Mechanism::Constraint& one = constraints[static_cast<std::size_t>(k)];
-    double size = one.turns ? 1 : 0, length = 0;
+    double size = one.between_axes ? 1 : 0, length = 0;
     for (int other = 0; other < static_cast<int>(constraints.size()); ++other) {
         const Mechanism::Constraint& c = constraints[static_cast<std::size_t>(other)];
-        if (one.joint ? c.joint != one.joint || c.turns != one.turns : other != k) continue;
+        if (one.joint ? c.joint != one.joint || c.between_axes != one.between_axes : other != k) continue;
         size = std::max(size, row(other));
         length = std::max(length, terms(other));
     }

@@ -5,10 +5,10 @@
 
 #include "analysis/state/given_inputs.hpp"
 #include "analysis/state/inertia_check.hpp"
+#include "analysis/state/irregular_constraints.hpp"
 #include "analysis/state/likely_mistakes.hpp"
 #include "analysis/state/nearly_redundant.hpp"
 #include "analysis/state/redundancy.hpp"
-#include "analysis/state/touching.hpp"
 #include "base/language/say.hpp"
 
 namespace alembert {

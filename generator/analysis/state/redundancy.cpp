@@ -238,8 +238,8 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
         }
         const std::vector<double> value = interpret(program, start.state());
         for (const int r : redundant) {
-            const double misfit = std::abs(value[velocity[r]]);
-            if (std::isfinite(misfit) && misfit > 1e-6 * (1 + size_of_terms(program, velocity[r], value)))
+            const double residual = std::abs(value[velocity[r]]);
+            if (std::isfinite(residual) && residual > 1e-6 * (1 + size_of_terms(program, velocity[r], value)))
                 throw ModelError(say(
                     "constraint '{0}' has a row that follows from the others', but prescribes rates that "
                     "contradict theirs: together they hold only where a relation between the coordinates does; "

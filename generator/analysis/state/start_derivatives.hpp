@@ -3,9 +3,9 @@
 
 /// How the state at the start depends on parameters and on initial values.
 ///
-///     const auto columns = start_derivatives(mechanism, equations, start, {{"l1", StartName::Kind::parameter,
-///     0}}); columns[0];                                     // ∂(q, q')/∂l1; ∂(q, u)/∂l1 if the equations have
-///     speeds u
+///     const std::vector<StartName> names{{"l1", StartName::Kind::parameter, 0}};
+///     start_derivatives(mechanism, equations, start, names)[0]
+///     // ∂(q, q')/∂l1; ∂(q, u)/∂l1 if the equations have speeds u
 ///
 /// By a parameter the whole derivative is meant: values that the scene writes with it change. By an initial value,
 /// all others are held. In both cases guesses follow so that the constraints hold: from f(q, p) = 0 and its rate,

@@ -16,7 +16,7 @@
 /// functions, or entries of more than 1000 nodes.
 ///
 /// Source: D. Cox, J. Little & D. O'Shea, Using Algebraic Geometry (2005), §2.5 (real radicals); for distances the
-/// matrix is Connelly's stress matrix (touching.hpp).
+/// matrix is Connelly's stress matrix (irregular_constraints.hpp).
 
 #include <Eigen/Core>
 #include <optional>

@@ -4,8 +4,8 @@
 /// Mathematics as written, in the language of claims.
 ///
 ///     const ClaimText text = claim_text(*math, letters);
-///     text.text                            // "(diff(L,theta'))'" for \frac{d}{dt}\frac{\partial L}{\partial
-///     \dot\theta}
+///     // for \frac{d}{dt}\frac{\partial L}{\partial \dot\theta}:
+///     text.text                            // "(diff(L,theta'))'"
 ///
 /// Each part of the text knows where it stands in the document.
 

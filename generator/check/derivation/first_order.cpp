@@ -173,7 +173,7 @@ std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, cons
                           },
                       .vanishes = [](const Expression&) { return false; },
                       .terms = [&]() -> const EquationTerms& { return terms; },
-                      .absent = [] { return std::vector<AbsentTerm>(); }};
+                      .missing = [] { return std::vector<MissingTerm>(); }};
     const auto repair = likely_slip(claim, 0, system.mechanism(), system.equations(), judge);
     return repair ? std::optional(repair->slip) : std::nullopt;
 }

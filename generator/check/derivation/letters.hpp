@@ -5,8 +5,7 @@
 ///
 ///     Letters letters(scene);
 ///     letters.name_of({.base = "theta", .index = "1"})      // "theta1" or "theta_1", as the scene has it
-///     letters.name_of({.base = "L"})                        // "L", the Lagrangian, unless the scene has this
-///     name
+///     letters.name_of({.base = "L"})                        // "L", the Lagrangian, unless the scene has an L
 ///
 /// A letter is what the user says, else what the derivation has defined, else the name of the scene that is
 /// written so, else one of mechanics' own letters, else a name of the scene in another hand (\varphi for phi, \ell

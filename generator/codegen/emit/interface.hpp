@@ -6,8 +6,7 @@
 /// name.
 ///
 ///     namespace_of(program);   // "double_pendulum"; "switch_" for a scene switch.toml
-///     describe_interface(file, program, words, functions, options);   // for the templates solver.cpp and
-///     solver.hpp
+///     describe_interface(file, program, words, functions, options);   // for solver.cpp.mustache and solver.hpp
 ///
 /// The names of the functions that a module exports are those of lib/alembert/native/abi.hpp.
 

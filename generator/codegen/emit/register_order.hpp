@@ -3,8 +3,7 @@
 
 /// Orders statements so that their values fit in a processor's registers.
 ///
-///     const std::vector<int> order = register_order(statements);       // positions; each after those that it
-///     needs
+///     register_order(statements)       // positions, each after those that it needs
 ///
 /// If a program has far more operations than the longest chain has time for, a schedule by urgency soon has
 /// hundreds of values waiting, and the compiler stores and reloads them: for an arm of seven joints with oblique

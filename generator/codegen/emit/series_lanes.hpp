@@ -5,8 +5,7 @@
 ///
 ///     const SeriesLanes lanes(recurrences);
 ///     lanes.packs();       // nodes of the same shape: one vector operation for all of them at each order
-///     lanes.lanes();       // products of all other nodes: the sums over lower orders side by side, what follows
-///     one by one
+///     lanes.lanes();       // products of all other nodes: only the sums over lower orders side by side
 ///
 /// This file makes no text; names and C++ are made in series_writer.hpp.
 

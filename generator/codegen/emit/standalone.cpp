@@ -15,9 +15,9 @@
 
 namespace alembert {
 
-std::vector<std::string> quick_rows(const std::vector<QuickTime>& quick) {
+std::vector<std::string> quick_rows(const std::vector<InputTimeScale>& quick) {
     std::vector<std::string> rows;
-    for (const QuickTime& q : quick)
+    for (const InputTimeScale& q : quick)
         rows.push_back(fmt::format("    {{{}, {}, {}, {}}}", shortest(q.from), shortest(q.to), shortest(q.enter),
                                    shortest(q.step)));
     return rows;

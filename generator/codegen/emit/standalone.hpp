@@ -8,7 +8,7 @@
 ///
 /// The template is templates/standalone.mustache.
 
-#include "alembert/ode/input_time_scales.hpp"
+#include "alembert/ode/input_time_scale.hpp"
 #include "codegen/emit/emit.hpp"
 
 namespace alembert {
@@ -19,16 +19,16 @@ struct StopEvent {
 };
 
 struct StandaloneStart {
-    double t = 0;                             ///< s
-    std::vector<double> state;                ///< q, then u
-    double duration = 10;                     ///< s
-    double tolerance = 1e-9;                  ///< the tolerance of a step, relative to max(1, |y|)
-    std::vector<QuickTime> quick_times = {};  ///< sudden_times
+    double t = 0;                                  ///< s
+    std::vector<double> state;                     ///< q, then u
+    double duration = 10;                          ///< s
+    double tolerance = 1e-9;                       ///< the tolerance of a step, relative to max(1, |y|)
+    std::vector<InputTimeScale> quick_times = {};  ///< sudden_times
     std::vector<StopEvent> stops = {};
 };
 
 /// "{from, to, enter, step}" of each, as C has it.
-std::vector<std::string> quick_rows(const std::vector<QuickTime>& quick);
+std::vector<std::string> quick_rows(const std::vector<InputTimeScale>& quick);
 
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 
 namespace alembert::machine {
 

@@ -28,7 +28,7 @@ void write_packed(MemoryCode& functions, const Program& program, const Vocabular
     functions.write(inside, place, other);
 }
 
-void describe(SeriesPacks& packs, const SeriesSteps& steps, std::size_t constants, std::size_t fixed_constants) {
+void describe(PackSeries& packs, const SeriesSteps& steps, std::size_t constants, std::size_t fixed_constants) {
     packs.places = steps.places;
     packs.products = steps.pairs;
     packs.factors = steps.factors;
@@ -39,20 +39,20 @@ void describe(SeriesPacks& packs, const SeriesSteps& steps, std::size_t constant
     packs.order_cost = cost_of_component * steps.places.width +
                        cost_of_operation * (operations.total() + static_cast<int>(steps.next.results.size()));
     double terms = 0;
-    for (const SeriesPacks::Product& product : packs.products) terms += product.left == product.right ? 0.25 : 0.5;
+    for (const PackSeries::Product& product : packs.products) terms += product.left == product.right ? 0.25 : 0.5;
     packs.product_cost = cost_of_product * terms;
 }
 
 }  // namespace
 
-std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, bool with_work,
-                                                       std::optional<int> wished) {
+std::shared_ptr<const PackSeries> memory_series_packs(const Program& program, bool with_work,
+                                                      std::optional<int> wished) {
     const int lanes = wished.value_or(lanes_of_processor());
     if (!can_run(lanes)) return nullptr;
     const SeriesSteps steps = series_steps(recurrences(program, with_work), true);
     const Vocabulary zero_words(steps.at_zero), order_words(steps.at_order);
     const Readiness zero(steps.at_zero, nodes_of(steps.first)), order(steps.at_order, nodes_of(steps.next));
-    const auto packs = std::make_shared<SeriesPacks>();
+    const auto packs = std::make_shared<PackSeries>();
     describe(*packs, steps, zero_words.constants().size(), order_words.constants().size());
     MemoryCode alone, packed(lanes);
     packs->prepare = packs->fix = [](double*) {};

@@ -27,7 +27,7 @@ std::optional<MemorySeries> memory_series(const Program&, bool) {
     return std::nullopt;
 }
 
-std::shared_ptr<const SeriesPacks> memory_series_packs(const Program&, bool, std::optional<int>) {
+std::shared_ptr<const PackSeries> memory_series_packs(const Program&, bool, std::optional<int>) {
     return nullptr;
 }
 

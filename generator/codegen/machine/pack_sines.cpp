@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// x = k π/2 + r with k rounded by adding a large number, |r| ≤ π/4, and the polynomials of code_functions.hpp; k
-// mod 4 says which goes where (Cody & Waite, Software Manual for the Elementary Functions (1980), ch. 8).
+// x = k π/2 + r with k rounded by adding a large number, |r| ≤ π/4, and the polynomials of
+// alembert/native/simd_math.hpp; k mod 4 says which goes where (Cody & Waite, Software Manual for the Elementary
+// Functions (1980), ch. 8).
 #include "codegen/machine/pack_sines.hpp"
 
 #include <cmath>

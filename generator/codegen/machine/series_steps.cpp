@@ -162,7 +162,7 @@ public:
         }
         if (is_packed_) {
             for (const auto& [factor, place] : factors_)
-                put("row", SeriesPacks::place_of_factor(place), now(factor.first, factor.second));
+                put("row", PackSeries::place_of_factor(place), now(factor.first, factor.second));
             for (const SeriesLane& lane : lanes_.lanes())
                 steps.pairs.push_back({factors_.at({lane.a, lane.a_rate}), factors_.at({lane.b, lane.b_rate})});
         } else {

@@ -22,9 +22,9 @@ struct SeriesSteps {
     FunctionTask first;  ///< (t, state, par, fixed, given): given gets the rates
     FunctionTask next;   ///< (k, par, given, next, row, out): par are the fixed values
     GivenPlaces places;
-    std::vector<int> place_of_factor = {};      ///< SeriesCode; none in packs
-    int factors = 0;                            ///< different ones, of products
-    std::vector<SeriesPacks::Product> pairs{};  ///< in packs: the products, by the numbers of their factors
+    std::vector<int> place_of_factor = {};     ///< SeriesCode; none in packs
+    int factors = 0;                           ///< different ones, of products
+    std::vector<PackSeries::Product> pairs{};  ///< in packs: the products, by the numbers of their factors
     double products = 0;  ///< multiplications of eight lanes, divided by the square of the order
 };
 

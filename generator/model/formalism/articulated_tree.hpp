@@ -4,8 +4,7 @@
 /// The accelerations of a tree of bodies by articulated inertias, in a number of operations linear in bodies, for
 /// any scalar:
 ///
-///     // M w' = Q − n, with n = joint_loads(tree, wrenches)
-///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);
+///     articulated_bodies(tree, bias.wrenches, Q)     // w' of M w' = Q − n, n = joint_loads(tree, bias.wrenches)
 ///
 /// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 7.)
 

@@ -48,8 +48,8 @@ std::optional<BallJoint> ball_joint(const Mechanism& m, const std::array<ex, 4>&
     Vector3& w = ball.rate;
     for (std::size_t k = 0; k < 3; ++k) w[k] = z.name(2 * z.name(product(G[k], rate)) * inverse);
     const ex growth = z.name(-2 * z.name(product(e, rate)) * inverse);
-    ball.drift = {z.name(growth * w[0] - w[1] * w[2]), z.name(growth * w[1] + w[0] * w[2]),
-                  z.name(growth * w[2] - w[0] * w[1])};
+    ball.bias = {z.name(growth * w[0] - w[1] * w[2]), z.name(growth * w[1] + w[0] * w[2]),
+                 z.name(growth * w[2] - w[0] * w[1])};
     return ball;
 }
 

@@ -31,7 +31,7 @@ struct BallJoint {
     std::array<GiNaC::ex, 4> e{};
     GiNaC::ex inverse = 0, spin = 0;  ///< 1/(e·e), e'·e'/(e·e)
     std::array<Vector3, 3> R{};       ///< rows
-    Vector3 rate{}, drift{};          ///< of the three joints: ω, w'₀
+    Vector3 rate{}, bias{};           ///< of the three joints: ω, w'₀
 };
 
 /// Nothing if an element of `e` is not a coordinate, or a coordinate with the sign −1.

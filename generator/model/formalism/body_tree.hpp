@@ -48,7 +48,7 @@ struct TreeLink {
     S angle = S(0), cosine = S(1),
       sine = S(0);                ///< of the joint's angle, or of the sum of angles if `still`
     S shift = S(0), rate = S(0);  ///< displacement of the joint, in units of `slide`; w
-    S drift = S(0);               ///< w' at q'' = 0
+    S bias = S(0);                ///< w' at q'' = 0
     /// Of a link that slides along a curve, in its own axes: its displacement, whose derivative is `slide`, and
     /// the second time derivative of the displacement at w' = 0.
     Triple<S> way = no_vector<S>(), bend = no_vector<S>();

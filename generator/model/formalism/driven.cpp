@@ -32,7 +32,7 @@ GiNaC::exmap shift(const GiNaC::exmap& rates) {
 GiNaC::exmap driven_rates(const Mechanism& m) {
     std::map<int, ex> known;  // also those that are zero
     const auto solve = [&](const Constraint& c) {
-        ex rest = m.z->expand(c.drift);
+        ex rest = m.z->expand(c.offset);
         int unknown = -1;
         for (int i = 0; i < m.size(); ++i) {
             if (c.row[i].is_zero()) continue;
@@ -66,11 +66,11 @@ ex counted_from(const ex& e, const Mechanism& m, const GiNaC::exmap& rates) {
 
 Mechanism counted_from(Mechanism m, const GiNaC::exmap& rates) {
     const auto count = [&](Constraint& c) {
-        GiNaC::exvector terms{c.drift};
+        GiNaC::exvector terms{c.offset};
         for (int i = 0; i < m.size(); ++i)
             if (const auto found = rates.find(m.qdot[i]); found != rates.end())
                 terms.push_back(c.row[i] * found->second);
-        c.drift = m.z->name(m.z->expand(GiNaC::add(std::move(terms))));
+        c.offset = m.z->name(m.z->expand(GiNaC::add(std::move(terms))));
         c.acceleration = counted_from(c.acceleration, m, rates);
     };
     for (auto* list : {&m.constraints, &m.redundant})

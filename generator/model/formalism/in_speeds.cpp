@@ -108,7 +108,7 @@ void InSpeeds::attach_kept(Equations& equations) const {
     for (const int c : equations.kept(m_)) {
         const Mechanism::Constraint& constraint = m_.constraints[c];
         SourceScope source(*m_.z, "constraint " + constraint.name);
-        GiNaC::exvector terms{constraint.drift};
+        GiNaC::exvector terms{constraint.offset};
         for (int i = 0; i < m_.size(); ++i) terms.push_back(constraint.row[i] * equations.h[i]);
         const ex velocity = m_.z->name(GiNaC::add(std::move(terms)));
         std::vector<ex> row;

@@ -4,7 +4,7 @@
 /// The derivatives of inverse dynamics by the angles or shifts q and the rates w of a tree's joints, in closed
 /// form, for any scalar:
 ///
-///     const InversePartials<double> by(moving, -1);      // `drift` is w', as for Bias
+///     const InversePartials<double> by(moving, -1);      // `bias` is w', as for Bias
 ///     by.position[i][j];                                 // ∂τ_i/∂q_j at constant w and w'
 ///     by.rate[i][j];                                     // ∂τ_i/∂w_j
 ///

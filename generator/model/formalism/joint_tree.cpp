@@ -174,7 +174,7 @@ private:
         const ex first = m_.explicit_time_derivative({z_.name(rest.expand())})[0];
         rate.push_back(first);
         joint.rate = z_.name(GiNaC::add(std::move(rate)));
-        joint.drift = m_.explicit_time_derivative({first})[0];
+        joint.bias = m_.explicit_time_derivative({first})[0];
     }
 
     /// The seat after a further turn about `axis`; `R` converts from the frame in which the axis is given to that
@@ -221,7 +221,7 @@ private:
             joint.link.of_ball = true;
             joint.position = 0;
             joint.rate = ball->rate[k];
-            joint.drift = ball->drift[k];
+            joint.bias = ball->bias[k];
             joint.row.assign(static_cast<std::size_t>(m_.size()), 0);
             tree_.joints.push_back(std::move(joint));
             next = {ball->first + k, transposed(C), {0, 0, 0}};
@@ -333,7 +333,7 @@ private:
             joint.link.slide = into_link(z_.push_forward(step, {{m_.q[i], 1}}));
             joint.link.way = way;
             joint.parallel = seat.link >= 0;
-            joint.position = joint.drift = 0;
+            joint.position = joint.bias = 0;
             joint.rate = m_.qdot[i];
             joint.row.assign(static_cast<std::size_t>(m_.size()), 0);
             joint.row[static_cast<std::size_t>(i)] = 1;

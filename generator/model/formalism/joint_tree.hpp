@@ -28,7 +28,7 @@ namespace alembert {
 
 struct TreeJoint {
     TreeLink<Named> link;             ///< without the values that depend on the state
-    GiNaC::ex position, rate, drift;  ///< angle or shift, w, w' at q'' = 0
+    GiNaC::ex position, rate, bias;   ///< angle or shift, w, w' at q'' = 0
     std::vector<GiNaC::numeric> row;  ///< the joint's row of S; zeros if it is of a ball joint
     GiNaC::ex rotor = 0;              ///< the inertia that w alone drives: J/s² for a rotor of q with w = s q'
     bool parallel = false;            ///< whether its axes differ from those of the parent by a turn about z only
@@ -84,7 +84,7 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
         return Triple<S>{value(v[0].e), value(v[1].e), value(v[2].e)};
     };
     BodyTree<S> tree{.links = {}, .gravity = vector(joints.gravity)};
-    std::vector<GiNaC::ex> angle, rate, drift;
+    std::vector<GiNaC::ex> angle, rate, bias;
     for (std::size_t j = 0; j < joints.joints.size(); ++j) {
         const TreeJoint& joint = joints.joints[j];
         const TreeLink<Named>& l = joint.link;
@@ -107,11 +107,11 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
         const int base = how[j].continues ? l.parent : -1;
         angle.push_back(l.slides ? GiNaC::ex(0) : joint.position);
         rate.push_back(joint.rate);
-        drift.push_back(joint.drift);
+        bias.push_back(joint.bias);
         if (base >= 0) angle[j] = z.name(angle[base] + angle[j]);
         if (how[j].absolute && how[j].base >= 0) {
             rate[j] = z.name(rate[how[j].base] + rate[j]);
-            drift[j] = z.name(drift[how[j].base] + drift[j]);
+            bias[j] = z.name(bias[how[j].base] + bias[j]);
         }
         if (!l.slides || link.still) {
             link.angle = value(angle[j]);
@@ -120,7 +120,7 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
         }
         if (l.slides) link.shift = value(joint.position);
         link.rate = value(rate[j]);
-        link.drift = value(drift[j]);
+        link.bias = value(bias[j]);
         tree.links.push_back(link);
     }
     return tree;

@@ -76,12 +76,12 @@ KaneForces forces_of(const InSpeeds& motion, const Mechanism& m) {
     for (const Rotor& rotor : m.rotors) {
         SourceScope source(z, label(rotor.origin));
         const std::vector<ex> rate = motion.short_in_speeds(std::vector<ex>{m.qdot[rotor.coordinate]});
-        const ex drift = motion.without_acceleration(rate)[0];
+        const ex bias = motion.without_acceleration(rate)[0];
         std::vector<ex> along;
         for (const GiNaC::symbol& u : motion.kinematics().u) along.push_back(z.push_forward(rate, {{u, 1}})[0]);
         for (int r = 0; r < n; ++r) {
             for (int s = 0; s <= r; ++s) mass[r * n + s].push_back(rotor.inertia * along[r] * along[s]);
-            inertia[r].push_back(-rotor.inertia * drift * along[r]);
+            inertia[r].push_back(-rotor.inertia * bias * along[r]);
         }
     }
 

@@ -204,12 +204,12 @@ Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mech
         k.form.push_back(speeds[r].form);
         for (int i = 0; i < n; ++i) S(r, i) = speeds[r].row[i];
         right(r, r) = 1;
-        right(r, count) = -speeds[r].drift;
+        right(r, count) = -speeds[r].offset;
     }
     for (int r = count; r < n; ++r) {
         const Mechanism::Constraint& constraint = m.constraints[eliminated[r - count]];
         for (int i = 0; i < n; ++i) S(r, i) = constraint.row[i];
-        right(r, count) = -constraint.drift;
+        right(r, count) = -constraint.offset;
     }
     Possible<Solution> solved = Elimination(S, right, m, message, poles).solve();
     if (const auto obstacle = solved.obstacle()) return Obstacle{*obstacle};
@@ -298,7 +298,7 @@ Mechanism::Speed rate_as_speed(const Mechanism& m, int i) {
                            .udot = m.qddot[i],
                            .form = m.qdot[i],
                            .row = {},
-                           .drift = 0,
+                           .offset = 0,
                            .start = {},
                            .unit = {},
                            .place = {}};

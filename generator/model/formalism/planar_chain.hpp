@@ -6,9 +6,9 @@
 ///     const std::vector<double> wdot = from_both_ends(tree, Q);      // for trees that are one: is_planar_chain
 ///
 /// Rates count from the ground. Link j has the polar second moment J_j and the first moment h_j about its origin,
-/// r_j leads from there to the origin of the next link, Ω_j r_j is the acceleration of r_j at w' = `drift`. Let
+/// r_j leads from there to the origin of the next link, Ω_j r_j is the acceleration of r_j at w' = `bias`. Let
 /// a_j be the acceleration of the origin less gravity, p_j the rate of momentum of all links from j on, and x = w'
-/// − `drift`. If a, p and Ω r are turned back by a right angle, so that x_j r_j stands for ẑ × r_j x_j,
+/// − `bias`. If a, p and Ω r are turned back by a right angle, so that x_j r_j stands for ẑ × r_j x_j,
 ///
 ///     J_j x_j + h_j · a_j + r_j · p_{j+1} = Q_j − J_j drift_j,
 ///     a_{j+1} = a_j + Ω_j r_j + r_j x_j,     p_j = p_{j+1} + m_j a_j + Ω_j h_j + h_j x_j.
@@ -83,7 +83,7 @@ struct ChainHalf {
     Vector w;
 };
 
-/// w' − `drift`. The masses of the tree must be those of its links, not regrouped.
+/// w' − `bias`. The masses of the tree must be those of its links, not regrouped.
 template <typename S>
 std::vector<S> from_both_ends(const BodyTree<S>& tree, const std::vector<S>& Q) {
     const int n = tree.size();
@@ -102,10 +102,10 @@ std::vector<S> from_both_ends(const BodyTree<S>& tree, const std::vector<S>& Q) 
         const TreeLink<S>& link = lean.links[j];
         const RigidBody<S> b = lean.body(link);
         const Triple<S> r = j + 1 < n ? lean.arm(lean.links[j + 1]) : no_vector<S>();
-        const Matrix<S> O = LinkMotion<S>{.w = {S(0), S(0), link.rate}, .e = {S(0), S(0), link.drift}}.turning();
+        const Matrix<S> O = LinkMotion<S>{.w = {S(0), S(0), link.rate}, .e = {S(0), S(0), link.bias}}.turning();
         const auto arm = in_plane(r), moment = in_plane(b.first);
         const auto swung_arm = turned_back(O * r), swung_moment = turned_back(O * b.first);
-        const S load = Q[j] - b.polar * link.drift;
+        const S load = Q[j] - b.polar * link.bias;
         if (j < inner)
             from_ground.push_back({j, arm, moment, swung_arm, swung_moment, S(0), b.polar, load});
         else

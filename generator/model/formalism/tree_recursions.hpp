@@ -4,8 +4,8 @@
 /// Recursions from body to body along a tree (body_tree.hpp), written once for any scalar:
 ///
 ///     const Bias<double> bias(tree);                                    // Newton-Euler, outwards, at w' = 0
-///     const auto n = joint_loads(tree, bias.wrenches);                  // … and inwards: M w' + n = Q
-///     const auto M = composite_bodies(tree);                            // rows by joint, lower triangle
+///     joint_loads(tree, bias.wrenches)                                  // … and inwards: n of M w' + n = Q
+///     composite_bodies(tree)                                            // M: rows by joint, lower triangle
 ///
 /// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 and 6; Walker & Orin 1982; Luh, Walker & Paul
 /// 1980.) With the moments m, h and P of a body about its link's origin, it needs the wrench
@@ -31,7 +31,7 @@ struct LinkMotion {
     }
 };
 
-/// The motion of a link at w' = `drift`, from that of its parent and the parent's Ω.
+/// The motion of a link at w' = `bias`, from that of its parent and the parent's Ω.
 ///     ω_j = ω_i + w z,   ε_j = ε_i + ω_i × w z + w'₀ z,   a_j = a_i + Ω_i r;   sliding: a_j + 2 ω × w s + w'₀ s
 template <typename S>
 LinkMotion<S> motion_of(const BodyTree<S>& tree, const TreeLink<S>& link, const LinkMotion<S>* parent,
@@ -43,12 +43,12 @@ LinkMotion<S> motion_of(const BodyTree<S>& tree, const TreeLink<S>& link, const 
     m.a = tree.from_parent(link, m.a);
     if (link.slides) {
         const Triple<S> s = tree.direction(link), ws = link.rate * s;
-        m.a = m.a + cross(m.w + m.w, ws) + link.drift * s + tree.along_axes(link, link.bend);
+        m.a = m.a + cross(m.w + m.w, ws) + link.bias * s + tree.along_axes(link, link.bend);
     } else if (link.absolute) {
         m.w[2] = link.rate;
-        m.e[2] = link.drift;
+        m.e[2] = link.bias;
     } else {
-        m.e = {m.e[0] + m.w[1] * link.rate, m.e[1] - m.w[0] * link.rate, m.e[2] + link.drift};
+        m.e = {m.e[0] + m.w[1] * link.rate, m.e[1] - m.w[0] * link.rate, m.e[2] + link.bias};
         m.w[2] = m.w[2] + link.rate;
     }
     return m;
@@ -67,7 +67,7 @@ Wrench<S> needed_wrench(const RigidBody<S>& b, const Matrix<S>& O, const Triple<
     return force;
 }
 
-/// The motion of every link at w' = `drift`, computed outwards, and the wrench that its body needs.
+/// The motion of every link at w' = `bias`, computed outwards, and the wrench that its body needs.
 template <typename S>
 struct Bias {
     explicit Bias(const BodyTree<S>& tree) {

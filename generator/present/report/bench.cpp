@@ -6,7 +6,7 @@
 #include <map>
 #include <span>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 #include "base/language/say.hpp"
 #include "present/report/page.hpp"
 #include "present/report/work_precision.hpp"

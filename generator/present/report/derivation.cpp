@@ -138,10 +138,11 @@ Json as_json(const DerivedScene& d, bool dimensions) {
         for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
     }
     for (const Derivation::Rubs& f : shown.frictions) {
-        Json one = {{"name", f.name},
-                    {"slip", f.across ? Json{text(f.slip), text(*f.across)} : Json(text(f.slip))},
-                    {"sliding", text(f.sliding)},
-                    {"sticking", text(f.sticking)}};
+        Json one = {
+            {"name", f.name},
+            {"slip", f.across ? Json{text(f.sliding_velocity), text(*f.across)} : Json(text(f.sliding_velocity))},
+            {"sliding", text(f.sliding)},
+            {"sticking", text(f.sticking)}};
         for (const ReadableEquation& e : f.held)
             one["while_sticking"].push_back(
                 {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}});
@@ -335,8 +336,9 @@ private:
                   "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
                   "one.",
                   f.name, n_.inline_phrase(f.sliding),
-                  f.across ? fmt::format("({}, {})", n_.inline_phrase(f.slip), n_.inline_phrase(*f.across))
-                           : n_.inline_phrase(f.slip),
+                  f.across
+                      ? fmt::format("({}, {})", n_.inline_phrase(f.sliding_velocity), n_.inline_phrase(*f.across))
+                      : n_.inline_phrase(f.sliding_velocity),
                   n_.inline_phrase(f.sticking)),
               Kind::remark);
         if (f.operations > 0)

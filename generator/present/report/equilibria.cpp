@@ -77,7 +77,7 @@ Json as_json(const Equilibria& found) {
     result["equilibria"] = Json::array();
     for (const Equilibrium& one : found.list) result["equilibria"].push_back(json_of(found, one));
     result["absent"] = Json::array();
-    for (const ClosedRoot& root : found.absent)
+    for (const ClosedRoot& root : found.not_real)
         result["absent"].push_back({{"exact", exact_of(found.mechanism, root)}, {"where", root.where}});
     if (!found.nothing.empty()) result["reason"] = found.nothing;
     return result;
@@ -122,7 +122,7 @@ std::string as_text(const Equilibria& found) {
     if (found.search.in_families > 1)
         say_on(page, "{} roots belong to continua; of those that a way within a continuum joins, one is shown.\n",
                found.search.in_families);
-    for (const ClosedRoot& root : found.absent) {
+    for (const ClosedRoot& root : found.not_real) {
         say_on(page, "Not at these parameters:");
         for (int i = 0; i < m.size(); ++i)
             if (!root.text[i].empty()) put(page, " {} = {},", m.q[i].get_name(), root.text[i]);

@@ -119,7 +119,7 @@ Json as_json(const SceneKinematics& s, bool steps) {
     for (const PointKinematics& p : s.points) result["points"][p.name] = json_of(p, steps);
     for (const auto& [name, found] : s.jacobians) {
         result["points"][name]["jacobian"] = found.jacobian;
-        result["points"][name]["drift"] = found.drift;
+        result["points"][name]["drift"] = found.bias;
     }
     if (s.mass_centre)
         result["mass_centre"] = {{"position", s.mass_centre->position},

@@ -242,7 +242,7 @@ std::string jacobian_page(const SceneKinematics& s) {
         say_on(page, "Jacobian of {}, along N; columns by the rates of {}:\n", name,
                fmt::join(s.coordinates, ", "));
         matrix(found.jacobian);
-        row("J' q'", found.drift);
+        row("J' q'", found.bias);
     }
     if (!s.mass_centre) return page;
     page += "\n";

@@ -169,7 +169,7 @@ private:
         const std::vector<double> parameters = start_of(e_.mechanism).parameters;
         Json result{{"rows", Json::array()}, {"follow", Json::array()}, {"least", 0}};
         double least = HUGE_VAL;
-        for (const QuickTime& q : sudden_times(quick_times(p_, parameters, t_, t_ + duration))) {
+        for (const InputTimeScale& q : sudden_times(quick_times(p_, parameters, t_, t_ + duration))) {
             result["rows"].push_back({q.from, q.to, q.enter, q.step});
             least = std::min(least, q.step);
         }

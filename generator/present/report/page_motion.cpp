@@ -203,7 +203,8 @@ void add_motion(PageParts& page, const Overview& all) {
     const Run& run = all.motion.value->run;
     page.section("run", say("How the motion was made"));
     if (run.failure) page.problem(*run.failure);
-    for (const std::string& doubt : run.doubts) put(page.body, "<p class=\"warning\">{}</p>\n", html(doubt));
+    for (const std::string& doubt : run.distrust_reasons)
+        put(page.body, "<p class=\"warning\">{}</p>\n", html(doubt));
     put(page.body, "<dl class=\"facts\">");
     const auto fact = [&](const std::string& name, const std::string& value) {
         put(page.body, "<div><dt>{}</dt><dd>{}</dd></div>\n", name, html(value));

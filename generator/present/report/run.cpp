@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/layout.hpp"
 #include "present/report/page.hpp"
@@ -209,7 +209,8 @@ std::string text_of(const std::vector<Run::Side>& changes) {
 
 /// The reason why the result should not be trusted; empty if there is none.
 std::string warning_of(const Run& run) {
-    return run.doubts.empty() ? std::string() : say("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
+    return run.distrust_reasons.empty() ? std::string()
+                                        : say("NOT TRUSTWORTHY: {}", fmt::join(run.distrust_reasons, "; "));
 }
 
 /// " of 67 operations"; empty if all accelerations are constants.
@@ -361,7 +362,7 @@ Json as_json(const Run& run) {
     if (!energy.conserved) result["work_balance"] = energy.balance;
     if (energy.jacobi_conserved) result["jacobi_drift"] = energy.jacobi_drift;
     result["constraint_drift"] = run.constraint_drift;
-    if (run.estimate) result["error_estimate"] = json_of(*run.estimate, run.doubts);
+    if (run.estimate) result["error_estimate"] = json_of(*run.estimate, run.distrust_reasons);
     if (run.sensitivity)
         result["sensitivity"] = {{"time", run.sensitivity->time},
                                  {"of", run.sensitivity->of},

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 #include "base/language/say.hpp"
 #include "present/report/page.hpp"
 

@@ -84,14 +84,14 @@ std::vector<int> inverse_recursion(Program& program, const JointTree& joints, In
     BodyTree<Symbolic> tree = regrouped(dressed<Symbolic>(joints, LinkAxes::own, z, value));
     const JointChange change(program, joints, LinkAxes::own, lowering);
     for (std::size_t j = 0; j < joints.joints.size(); ++j) {
-        GiNaC::ex w = joints.joints[j].drift;
+        GiNaC::ex w = joints.joints[j].bias;
         for (std::size_t a = 0; a < qddot.size(); ++a) w += joints.joints[j].row[a] * qddot[a];
-        tree.links[j].drift = value(z.name(w));
+        tree.links[j].bias = value(z.name(w));
     }
     std::vector<int> second;
     for (const GiNaC::symbol& a : qddot) second.push_back(lowering(a));
     for (const auto& [j, added] : change.ball_accelerations(second))
-        tree.links[j].drift = tree.links[j].drift + Symbolic(program, added);
+        tree.links[j].bias = tree.links[j].bias + Symbolic(program, added);
     std::vector<int> loads;
     for (const Symbolic& s : joint_loads(tree, Bias<Symbolic>(tree).wrenches)) loads.push_back(s.node(program));
     loads = change.forces(loads);

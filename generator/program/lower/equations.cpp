@@ -203,15 +203,15 @@ public:
         const Witness witness = has_matrix_ ? witness_of(program_, m_, e_, K, options_.admissible) : Witness();
         const std::optional<std::vector<int>> by_recursion =
             normal_forces.any() ? std::nullopt : unknowns_by_recursion(by_tree);
-        const std::optional<NormalForces::Solution> rubbing =
+        const std::optional<NormalForces::Solution> normal_forces_found =
             normal_forces.any() ? normal_forces.solve(lowering_, program_, K, right) : std::nullopt;
         std::optional<std::vector<int>> solution;
         if (n_ == 0)
             solution.emplace();
         else if (by_recursion)
             solution = by_recursion;
-        else if (rubbing)
-            solution = rubbing->unknowns;
+        else if (normal_forces_found)
+            solution = normal_forces_found->unknowns;
         else if (!normal_forces.any() && !has_letters)
             solution = solve_symmetric(program_, K, right, n_, witness);
 
@@ -226,7 +226,7 @@ public:
         add_energy_roots(lowering_, program_, m_, e_, energy_,
                          norms.empty() && has_matrix_ ? K : std::vector<int>());
         add_outputs();
-        add_frictions(normal_forces, rubbing);
+        add_frictions(normal_forces, normal_forces_found);
         return program_.canonical();
     }
 
@@ -274,7 +274,7 @@ private:
         for (const Mechanism::Constraint& constraint : m_.constraints) {
             if (has_speeds_) wanted.insert(wanted.end(), constraint.row.begin(), constraint.row.end());
             if (constraint.position) wanted.push_back(*constraint.position);
-            wanted.push_back(constraint.drift);
+            wanted.push_back(constraint.offset);
         }
         return wanted;
     }
@@ -388,7 +388,7 @@ private:
     void add_constraints(std::vector<int>& K, std::vector<int>& right) {
         for (std::size_t c = 0; c < m_.constraints.size(); ++c) {
             const Mechanism::Constraint& constraint = m_.constraints[c];
-            std::vector<Program::Term> velocity{{1, lowering_(constraint.drift)}};
+            std::vector<Program::Term> velocity{{1, lowering_(constraint.offset)}};
             for (int i = 0; i < m_.size(); ++i) {
                 const int entry = lowering_(has_speeds_ ? constraint.row[i] : e_.A[c][i]);
                 program_.roots.push_back({Group::row, fmt::format("A{}_{}", c, i), entry});
@@ -467,12 +467,12 @@ private:
         }
         for (const Mechanism::Constraint& constraint : m_.redundant) {
             wanted.insert(wanted.end(), constraint.row.begin(), constraint.row.end());
-            wanted.insert(wanted.end(), {constraint.position.value_or(0), constraint.drift});
+            wanted.insert(wanted.end(), {constraint.position.value_or(0), constraint.offset});
         }
         lowering_.lower_definitions(wanted);
         for (const Mechanism::Constraint& constraint : m_.redundant) {
-            const auto along = [&](const auto& list, int drift) {
-                std::vector<Program::Term> terms{{1, drift}};
+            const auto along = [&](const auto& list, int offset) {
+                std::vector<Program::Term> terms{{1, offset}};
                 for (int i = 0; i < m_.size(); ++i)
                     terms.emplace_back(
                         1, program_.product(1, {{lowering_(constraint.row[i]), 1}, {lowering_(list[i]), 1}}));
@@ -486,7 +486,7 @@ private:
             program_.roots.push_back(
                 {Group::redundant_position, constraint.name, lowering_(constraint.position.value_or(0))});
             program_.roots.push_back(
-                {Group::redundant_velocity, constraint.name, along(m_.qdot, lowering_(constraint.drift))});
+                {Group::redundant_velocity, constraint.name, along(m_.qdot, lowering_(constraint.offset))});
         }
     }
 
@@ -553,7 +553,8 @@ private:
         for (const auto* parts : {&m_.outputs, &m_.events})
             for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
         for (const Mechanism::Friction& f : m_.frictions)
-            wanted.insert(wanted.end(), {f.slip, f.across.value_or(0), f.coefficient, f.resting, f.normal});
+            wanted.insert(wanted.end(),
+                          {f.sliding_velocity, f.across.value_or(0), f.coefficient, f.resting, f.normal});
         lowering_.lower_definitions(wanted);
     }
 
@@ -564,27 +565,29 @@ private:
             program_.roots.push_back({Group::event, part.name, lowering_(part.value)});
     }
 
-    void add_frictions(const NormalForces& normal_forces, const std::optional<NormalForces::Solution>& rubbing) {
+    void add_frictions(const NormalForces& normal_forces,
+                       const std::optional<NormalForces::Solution>& normal_forces_found) {
         for (const Mechanism::Friction& f : m_.frictions) {
             const int bound =
                 f.resting.is_equal(f.coefficient)
                     ? program_.number(1)
                     : program_.product(1, {{lowering_(f.resting), 1}, {lowering_(f.coefficient), -1}});
-            program_.roots.push_back({Group::slip, f.name, lowering_(f.slip)});
+            program_.roots.push_back({Group::sliding_velocity, f.name, lowering_(f.sliding_velocity)});
             program_.roots.push_back({Group::stick_bound, f.name, bound});
             program_.roots.push_back({Group::friction, f.name, lowering_(f.coefficient)});
             program_.roots.push_back({Group::normal, f.name, lowering_(f.normal)});
-            program_.roots.push_back(
-                {Group::determinant, f.name,
-                 rubbing && normal_forces.determine(f) ? rubbing->determinant : program_.number(1)});
+            program_.roots.push_back({Group::determinant, f.name,
+                                      normal_forces_found && normal_forces.determine(f)
+                                          ? normal_forces_found->determinant
+                                          : program_.number(1)});
             if (f.is_held)
                 program_.roots.push_back(
                     {Group::across, f.name, lowering_(*f.across), static_cast<int>(&f - m_.frictions.data())});
         }
-        for (std::size_t k = 0; rubbing && k < rubbing->columns.size(); ++k)
-            for (const int node : rubbing->columns[k].nodes)
+        for (std::size_t k = 0; normal_forces_found && k < normal_forces_found->columns.size(); ++k)
+            for (const int node : normal_forces_found->columns[k].nodes)
                 program_.roots.push_back(
-                    {Group::friction_column, "friction", node, kept_[rubbing->columns[k].row]});
+                    {Group::friction_column, "friction", node, kept_[normal_forces_found->columns[k].row]});
     }
 
     const Mechanism& m_;

@@ -46,20 +46,20 @@ Program lower_constraints(const Mechanism& m) {
     Program program = begun(m, false);
     Lowering lowering(program, m, false);
     std::vector<ex> wanted;
-    const auto want = [&](const std::vector<ex>& row, const ex& value, const ex& drift) {
+    const auto want = [&](const std::vector<ex>& row, const ex& value, const ex& offset) {
         wanted.insert(wanted.end(), row.begin(), row.end());
-        wanted.insert(wanted.end(), {value, drift});
+        wanted.insert(wanted.end(), {value, offset});
     };
-    for (const Mechanism::Constraint& c : m.constraints) want(c.row, c.position.value_or(0), c.drift);
-    for (const Mechanism::Speed& s : m.speeds) want(s.row, s.form, s.drift);
+    for (const Mechanism::Constraint& c : m.constraints) want(c.row, c.position.value_or(0), c.offset);
+    for (const Mechanism::Speed& s : m.speeds) want(s.row, s.form, s.offset);
     const std::vector<int> closed = closed_joints(m);
     for (const int k : closed) {
         const std::vector<ex>& between = m.alignments[static_cast<std::size_t>(k)].between;
         wanted.insert(wanted.end(), between.begin(), between.end());
     }
     lowering.lower_definitions(wanted);
-    const auto linear = [&](const std::vector<ex>& row, const ex& drift, Group group) {
-        std::vector<Program::Term> value{{1, lowering(drift)}};
+    const auto linear = [&](const std::vector<ex>& row, const ex& offset, Group group) {
+        std::vector<Program::Term> value{{1, lowering(offset)}};
         for (int i = 0; i < m.size(); ++i) {
             const int entry = lowering(row[i]);
             program.roots.push_back({group, "", entry});
@@ -68,11 +68,11 @@ Program lower_constraints(const Mechanism& m) {
         return program.sum(0, value);
     };
     for (const Mechanism::Constraint& c : m.constraints) {
-        program.roots.push_back({Group::velocity, c.name, linear(c.row, c.drift, Group::row)});
+        program.roots.push_back({Group::velocity, c.name, linear(c.row, c.offset, Group::row)});
         program.roots.push_back({Group::position, c.name, c.position ? lowering(*c.position) : program.number(0)});
     }
     for (const Mechanism::Speed& s : m.speeds)
-        program.roots.push_back({Group::speed, s.u.get_name(), linear(s.row, s.drift, Group::form_row)});
+        program.roots.push_back({Group::speed, s.u.get_name(), linear(s.row, s.offset, Group::form_row)});
     for (const int k : closed)
         for (const ex& product : m.alignments[static_cast<std::size_t>(k)].between)
             program.roots.push_back({Group::alignment, "", lowering(product), k});

@@ -111,20 +111,20 @@ std::optional<NormalForces::Solution> NormalForces::solve(Lowering& lowering, Pr
     for (const Pressed& pressed : pressed_) {
         std::vector<std::vector<Program::Term>> terms(right.size());
         for (const Mechanism::Friction* f : pressed.frictions) {
-            lowering.lower_definitions({f->slip, f->coefficient});
+            lowering.lower_definitions({f->sliding_velocity, f->coefficient});
             const int mu = lowering(f->coefficient);
-            const auto add = [&](int slip, int side) {
-                const std::vector<int> row = row_of(program, slip, e_.size());
+            const auto add = [&](int sliding_velocity, int side) {
+                const std::vector<int> row = row_of(program, sliding_velocity, e_.size());
                 for (std::size_t i = 0; i < row.size(); ++i)
                     terms[i].emplace_back(1, program.product(-1, {{mu, 1}, {side, 1}, {row[i], 1}}));
             };
-            const int slip = lowering(f->slip);
+            const int sliding_velocity = lowering(f->sliding_velocity);
             if (!f->across) {
-                add(slip, program.call(Op::sign, {slip}));
+                add(sliding_velocity, program.call(Op::sign, {sliding_velocity}));
                 continue;
             }
             lowering.lower_definitions({*f->across, f->direction[0], f->direction[1]});
-            add(slip, lowering(f->direction[0]));
+            add(sliding_velocity, lowering(f->direction[0]));
             add(lowering(*f->across), lowering(f->direction[1]));
         }
         sides.emplace_back();

@@ -62,9 +62,9 @@ private:
         BodyTree<Symbolic> moving = tree_;
         const std::vector<Symbolic> rates = bodies_->accelerations();
         for (std::size_t j = 0; j < rates.size(); ++j) {
-            moving.links[j].drift = moving.links[j].drift + rates[j];
+            moving.links[j].bias = moving.links[j].bias + rates[j];
             rates_.push_back(held(rates[j]));
-            tree_.links[j].drift = tree_.links[j].drift + rates_[j];
+            tree_.links[j].bias = tree_.links[j].bias + rates_[j];
         }
         const Bias<Symbolic> motion(moving);
         for (const LinkMotion<Symbolic>& m : motion.motions) motions_.push_back({m.w, held(m.e), held(m.a)});

@@ -35,16 +35,16 @@ std::vector<int> combined(Program& program, const std::vector<std::vector<int>>&
     return result;
 }
 
-/// Moves coordinates along `rows` so that `misfit` becomes 0, by the least change in the Euclidean metric.
+/// Moves coordinates along `rows` so that `residual` becomes 0, by the least change in the Euclidean metric.
 struct LeastChange {
     std::vector<int> change, pivots;  ///< pivots of rows·rowsᵀ
 };
 std::optional<LeastChange> least_change(Program& program, const std::vector<std::vector<int>>& rows,
-                                        const std::vector<int>& misfit) {
+                                        const std::vector<int>& residual) {
     std::vector<int> square;
     for (std::size_t k = 0; k < rows.size(); ++k)
         for (std::size_t j = 0; j <= k; ++j) square.push_back(dot(program, rows[k], rows[j], program.number(0)));
-    const auto nu = solve_symmetric(program, square, misfit);
+    const auto nu = solve_symmetric(program, square, residual);
     if (!nu) return std::nullopt;
     LeastChange result{.change = combined(program, rows, *nu), .pivots = {}};
     // The pivots of the elimination have the opposite sign.
@@ -93,7 +93,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     for (std::size_t k = 0; k < s; ++k) u.push_back(program.variable({Variable::Kind::rate, static_cast<int>(k)}));
     for (std::size_t k = 0; k < s && own_speeds; ++k) given.emplace_back(equations.u[k], u[k]);
     const auto here = lowering_into(program, m, given, fold);
-    std::vector<int> pivots(position.size(), program.number(0)), misfit, off;
+    std::vector<int> pivots(position.size(), program.number(0)), residual, off;
     const auto solve = [&](const std::vector<int>& right) {
         std::vector<int> sides(s, program.number(0));
         sides.insert(sides.end(), right.begin(), right.end());
@@ -107,16 +107,16 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         std::vector<std::vector<int>> rows;
         for (const int c : by_rows) {
             rows.push_back(lowered(here, m.constraints[c].row));
-            misfit.push_back(position[c]);
+            residual.push_back(position[c]);
         }
-        const auto least = least_change(program, rows, misfit);
+        const auto least = least_change(program, rows, residual);
         if (!least) return;
         off = least->change;
         for (std::size_t k = 0; k < least->pivots.size(); ++k) pivots[by_rows[k]] = least->pivots[k];
     } else {
-        for (const int c : kept) misfit.push_back(position[c]);
-        for (const Mechanism::Constraint* c : matrix.tied) misfit.push_back(here(c->position.value_or(0)));
-        off = solve(misfit);
+        for (const int c : kept) residual.push_back(position[c]);
+        for (const Mechanism::Constraint* c : matrix.tied) residual.push_back(here(c->position.value_or(0)));
+        off = solve(residual);
         off.resize(s);
         std::vector<std::vector<int>> columns;
         for (std::size_t k = 0; k < s && own_speeds; ++k)
@@ -133,17 +133,18 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     if (!kept.empty()) {
         const auto there = lowering_into(program, m, given, fold);
         const std::vector<int> rates = own_speeds ? lowered(there, equations.h) : u;
-        misfit.clear();
+        residual.clear();
         for (std::size_t k = 0; k < kept.size(); ++k)
-            misfit.push_back(dot(program, lowered(there, row_of(k)), rates, there(m.constraints[kept[k]].drift)));
+            residual.push_back(
+                dot(program, lowered(there, row_of(k)), rates, there(m.constraints[kept[k]].offset)));
         if (only_norms) {
             std::vector<std::vector<int>> rows;
             for (std::size_t k = 0; k < kept.size(); ++k) rows.push_back(lowered(there, row_of(k)));
-            if (const auto least = least_change(program, rows, misfit)) change = least->change;
+            if (const auto least = least_change(program, rows, residual)) change = least->change;
         } else {
             for (const Mechanism::Constraint* c : matrix.tied)
-                misfit.push_back(dot(program, lowered(there, c->row), rates, there(c->drift)));
-            change = solve(misfit);
+                residual.push_back(dot(program, lowered(there, c->row), rates, there(c->offset)));
+            change = solve(residual);
         }
     }
     for (std::size_t k = 0; k < s; ++k) {

@@ -15,7 +15,7 @@ namespace alembert {
 namespace {
 
 constexpr int first_pieces = 2039;  // a prime, so that no period of an input is likely to be a multiple of a piece
-constexpr double misfit = 0.02;     // relative to a value's range
+constexpr double fit_tolerance = 0.02;  // relative to a value's range
 constexpr double pieces_a_step = 2;
 // A piece is sudden if it is this many times shorter than the one before.
 constexpr double sudden = 3;
@@ -45,7 +45,7 @@ public:
            double end)
         : tape_(program, std::move(inputs), parameters), start_(start), end_(end) {}
 
-    std::vector<QuickTime> go() {
+    std::vector<InputTimeScale> go() {
         for (int i = 0; i <= first_pieces; ++i) known_.push_back(at(start_ + (end_ - start_) * i / first_pieces));
         mark();
         std::sort(known_.begin(), known_.end(), [](const Sample& a, const Sample& b) { return a.t < b.t; });
@@ -53,7 +53,7 @@ public:
         divide(start_, end_);
         if (is_over_budget()) return {};
         join();
-        std::vector<QuickTime> result;
+        std::vector<InputTimeScale> result;
         double before = 0;
         for (const Piece& piece : pieces_) {
             const double length = piece.to - piece.from, reach = pieces_a_step * length;
@@ -68,7 +68,7 @@ public:
                               .step = piece.is_switch ? length : reach,
                               .is_switch = piece.is_switch});
         }
-        return is_over_budget() ? std::vector<QuickTime>() : result;
+        return is_over_budget() ? std::vector<InputTimeScale>() : result;
     }
 
 private:
@@ -171,7 +171,7 @@ private:
                 if (ranges_[k] == 0) continue;
                 double cubic = 0;
                 for (std::size_t i = 0; i < fixed.size(); ++i) cubic += weight[i] * fixed[i].values[k];
-                if (std::abs(cubic - sample.values[k]) > misfit * ranges_[k]) return false;
+                if (std::abs(cubic - sample.values[k]) > fit_tolerance * ranges_[k]) return false;
             }
             return true;
         };
@@ -225,18 +225,18 @@ private:
 
 }  // namespace
 
-std::vector<QuickTime> quick_times(const Program& program, const std::vector<double>& parameters, double start,
-                                   double end) {
+std::vector<InputTimeScale> quick_times(const Program& program, const std::vector<double>& parameters,
+                                        double start, double end) {
     std::vector<int> inputs = inputs_of(program);
     if (inputs.empty() || !(end > start) || !std::isfinite(end - start)) return {};
     return Search(program, std::move(inputs), parameters, start, end).go();
 }
 
-std::vector<QuickTime> sudden_times(const std::vector<QuickTime>& quick) {
+std::vector<InputTimeScale> sudden_times(const std::vector<InputTimeScale>& quick) {
     constexpr int shown_after = 8;
-    std::vector<QuickTime> result;
+    std::vector<InputTimeScale> result;
     int left = 0;
-    for (const QuickTime& q : quick) {
+    for (const InputTimeScale& q : quick) {
         left = q.enter == 0 ? shown_after : left - 1;
         if (left > 0) result.push_back(q);
     }

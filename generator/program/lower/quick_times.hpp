@@ -21,18 +21,18 @@
 
 #include <vector>
 
-#include "alembert/ode/input_time_scales.hpp"
+#include "alembert/ode/input_time_scale.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
 /// The times between `start` and `end` (s); `parameters` are in the order of Program. Throws nothing.
-std::vector<QuickTime> quick_times(const Program& program, const std::vector<double>& parameters, double start,
-                                   double end);
+std::vector<InputTimeScale> quick_times(const Program& program, const std::vector<double>& parameters,
+                                        double start, double end);
 
 /// The sudden ones, and those next to them in which the motion does not yet show what has begun: what a step
 /// control needs that sees everything else by itself.
-std::vector<QuickTime> sudden_times(const std::vector<QuickTime>& quick);
+std::vector<InputTimeScale> sudden_times(const std::vector<InputTimeScale>& quick);
 
 /// The parameters on which these times depend: one flag for each independent one of Program::parameters.
 std::vector<bool> parameters_of_inputs(const Program& program, std::size_t count);

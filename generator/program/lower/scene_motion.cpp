@@ -220,8 +220,8 @@ LinearAngular SceneMotion::velocity(const Spot& spot, const Rates& rates) {
 }
 
 LinearAngular SceneMotion::column(const Spot& spot, int k) {
-    const LinearAngular moving = velocity(spot, unit_rate(k)), drift = velocity(spot, resting_);
-    return {moving.linear - drift.linear, moving.angular - drift.angular};
+    const LinearAngular moving = velocity(spot, unit_rate(k)), offset = velocity(spot, resting_);
+    return {moving.linear - offset.linear, moving.angular - offset.angular};
 }
 
 LinearAngular SceneMotion::acceleration(const Spot& spot, bool accelerated) {

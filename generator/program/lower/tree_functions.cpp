@@ -44,18 +44,18 @@ std::vector<int> TreeFunctions::along_coordinates(const std::vector<Symbolic>& l
 BodyTree<Symbolic> TreeFunctions::accelerated() const {
     BodyTree<Symbolic> tree = tree_;
     for (std::size_t j = 0; j < rows_.size(); ++j) {
-        std::vector<Program::Term> sum{{1, tree.links[j].drift.node(p_)}};
+        std::vector<Program::Term> sum{{1, tree.links[j].bias.node(p_)}};
         for (std::size_t a = 0; a < rows_[j].size(); ++a)
             if (!rows_[j][a].is_zero())
                 sum.emplace_back(cln::the<cln::cl_RA>(rows_[j][a].to_cl_N()),
                                  p_.variable({Variable::Kind::acceleration, static_cast<int>(a)}));
-        tree.links[j].drift = Symbolic(p_, p_.sum(0, sum));
+        tree.links[j].bias = Symbolic(p_, p_.sum(0, sum));
     }
     std::vector<int> second;
     for (int a = 0; a < change_.coordinates(); ++a)
         second.push_back(p_.variable({Variable::Kind::acceleration, a}));
     for (const auto& [j, added] : change_.ball_accelerations(second))
-        tree.links[j].drift = tree.links[j].drift + Symbolic(p_, added);
+        tree.links[j].bias = tree.links[j].bias + Symbolic(p_, added);
     return tree;
 }
 
@@ -91,7 +91,7 @@ bool TreeFunctions::has_closed_partials() const {
                                   std::all_of(l.bend.begin(), l.bend.end(), is_zero) && is_constant(l.slide) &&
                                   is_constant(l.p) && std::all_of(l.R.begin(), l.R.end(), is_constant) &&
                                   is_constant(l.body.first) && is_constant(l.body.second) &&
-                                  is_constant(std::array{l.body.mass, l.drift});
+                                  is_constant(std::array{l.body.mass, l.bias});
                        }) &&
            is_constant(tree_.gravity);
 }

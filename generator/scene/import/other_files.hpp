@@ -7,8 +7,7 @@
 ///
 ///     const NamedFiles named("robots/arm.xml", {});
 ///     named.text("hand.xml", refuse)                   // robots/hand.xml
-///     named.model("model://hand", refuse)              // robots/hand/model.sdf, or in a folder above or a
-///     package
+///     named.model("model://hand", refuse)              // robots/hand/model.sdf, or in a package, or above
 ///
 /// `refuse` gets the reason and throws.
 

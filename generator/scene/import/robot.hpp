@@ -108,14 +108,14 @@ struct Robot {
             int joint;
             double coefficient;
         };
-        struct StepView {
+        struct Stretch {
             int from, to;  ///< in `links`
             Real3 from_at, to_at;
             double factor = 1;
         };
         std::string name;
         std::vector<Term> terms = {};
-        std::vector<StepView> stretches = {};
+        std::vector<Stretch> stretches = {};
         double stiffness = 0, damping = 0, friction = 0, armature = 0;
         std::array<double, 2> rest{0, 0};  ///< between these lengths the spring is slack
         std::optional<std::array<double, 2>> limits = {};

@@ -68,7 +68,7 @@ double tendon_length(const Robot::Tendon& tendon, const std::vector<RobotPlace>&
     const auto point = [&](int link, const Real3& inside) -> Real3 {
         return places[at(link)].shift + places[at(link)].R * inside;
     };
-    for (const Robot::Tendon::StepView& s : tendon.stretches)
+    for (const Robot::Tendon::Stretch& s : tendon.stretches)
         length += s.factor * (point(s.to, s.to_at) - point(s.from, s.from_at)).norm();
     return length;
 }

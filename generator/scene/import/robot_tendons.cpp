@@ -82,7 +82,7 @@ std::string SceneWriter::length_of(const Robot::Tendon& tendon) {
     }
     double constant = 0;
     int count = 0;
-    for (const Robot::Tendon::StepView& s : tendon.stretches) {
+    for (const Robot::Tendon::Stretch& s : tendon.stretches) {
         const Seat &from = seat(s.from), &to = seat(s.to);
         if (from.group == to.group) {
             constant += s.factor * (from.shift + from.R * s.from_at - to.shift - to.R * s.to_at).norm();

@@ -3,8 +3,8 @@
 
 /// Watched functions of time alone, such as t − 5 or sin(π t), whose zeros a unit knows before it reaches them.
 ///
-///     const std::vector<TimedZero> clocks = add_clocks(program, 1, {2, 6});   // the first event; inputs are
-///     par[2] … par[5]
+///     // the first event; inputs are par[2] … par[5]
+///     const std::vector<TimedZero> clocks = add_clocks(program, 1, {2, 6});
 ///
 /// Each clock is an argument linear in time; what is watched changes its sign where the argument is zero, or its
 /// sine, or its cosine, or where it is a whole number of turns: sin a = c where a − asin c or a + asin c − π is.

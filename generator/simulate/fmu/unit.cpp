@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "alembert/native/compile.hpp"
+#include "alembert/native/compilation.hpp"
 #include "alembert/native/fingerprint.hpp"
 #include "base/archive/zip.hpp"
 #include "base/language/say.hpp"

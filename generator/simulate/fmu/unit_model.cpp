@@ -12,7 +12,7 @@
 #include "program/switches.hpp"
 #include "program/tangent.hpp"
 #include "simulate/first_accelerations.hpp"
-#include "simulate/fmu/touching.hpp"
+#include "simulate/fmu/event_bases.hpp"
 #include "simulate/sides.hpp"
 
 namespace alembert {
@@ -39,7 +39,7 @@ std::optional<FunctionProgram> free_contacts(UnitModel& model) {
             "only; use 'alembert simulate', or the library"));
     for (const Mechanism::Unilateral& contact : m.unilateral) {
         model.contact_forces.push_back(contact.gap.multiplier.get_name());
-        model.moves_contacts = model.moves_contacts || !contact.gap.drift.is_zero();
+        model.moves_contacts = model.moves_contacts || !contact.gap.offset.is_zero();
         for (const Mechanism::Definition& event : m.events)
             if (m.z->depends(event.value, {contact.gap.multiplier}))
                 throw ModelError(say(

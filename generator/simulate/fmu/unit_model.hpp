@@ -4,15 +4,15 @@
 /// The equations of a functional mock-up unit, with the numbers at which it starts.
 ///
 ///     const UnitModel model = unit_model(read_scene("scenes/textbook/cart_pole.toml"), "");
-///     model.program;                     // for emit, with its tangent; its last parameters are those of inputs,
-///     then signs
+///     model.program;                     // for emit, with its tangent
+///     // Its last parameters are those of inputs, then signs.
 ///
 /// Functions with kinks (abs, sign, min, max) have a sign that is held between events, as in program/switches.hpp.
 /// Events whose impulses change the rates have these as roots of Group::event_impulse.
 
 #include <optional>
 
-#include "alembert/ode/input_time_scales.hpp"
+#include "alembert/ode/input_time_scale.hpp"
 #include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
 #include "program/motion_system.hpp"
@@ -41,7 +41,7 @@ struct UnitModel : Derived {
     double duration = 0, tolerance = 0, sample = 0;
     /// Until the end of the duration, for these values of the parameters; and which of the scene's own they
     /// follow.
-    std::vector<QuickTime> quick_times = {};
+    std::vector<InputTimeScale> quick_times = {};
     std::vector<bool> times_follow = {};
 
     std::size_t coordinates() const { return program.coordinates.size(); }

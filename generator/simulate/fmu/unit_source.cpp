@@ -81,13 +81,13 @@ std::string shown_inputs(const UnitModel& model) {
 /// number.
 void add_quick_times(kainjow::mustache::data& file, const UnitModel& model) {
     constexpr double most_steps = 1e5;
-    const std::vector<QuickTime>& quick = model.quick_times;
+    const std::vector<InputTimeScale>& quick = model.quick_times;
     file.set("has_quick", !quick.empty());
     if (quick.empty()) return;
     file.set("quick_times", std::to_string(quick.size()));
     file.set("quick", fmt::format("{}", fmt::join(quick_rows(quick), ",\n")));
     double least = HUGE_VAL;
-    for (const QuickTime& q : quick) least = std::min(least, q.step);
+    for (const InputTimeScale& q : quick) least = std::min(least, q.step);
     file.set("quick_least", shortest(std::max(least, model.duration / most_steps)));
     file.set("quick_end", shortest(model.start.t + model.duration));
     std::vector<std::string> follow;

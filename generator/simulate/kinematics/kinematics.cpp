@@ -167,7 +167,7 @@ void find_jacobians(SceneKinematics& s, const State<double>& state) {
         PointJacobian found;
         for (const FunctionProgram& f : frame_functions(s.scene, s.mechanism, p.name, "", false)) {
             if (f.name == "_jacobian") found.jacobian = rows_at(f, state);
-            if (f.name == "_drift") found.drift = values_at(f, state);
+            if (f.name == "_drift") found.bias = values_at(f, state);
         }
         s.jacobians.emplace_back(p.name, std::move(found));
     }

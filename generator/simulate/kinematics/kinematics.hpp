@@ -92,7 +92,7 @@ struct PointKinematics {
 /// The motion of a point and of the axes that SceneMotion::spot gives it, along N: linear rows first.
 struct PointJacobian {
     std::vector<std::vector<double>> jacobian = {};  ///< 6 × n
-    std::vector<double> drift = {};                  ///< (a, α) at q'' = 0: J' q'
+    std::vector<double> bias = {};                   ///< (a, α) at q'' = 0: J' q'
 };
 
 /// The mass centre, its Jacobian (3 × n), the momentum, and the angular momentum about the mass centre, along N.

@@ -4,8 +4,8 @@
 /// How the energy of a mechanism changes in all of its motions, where that can be proved: forces that depend on
 /// the coordinates and have a potential belong to it, and the power of the others has one sign.
 ///
-///     energy_rate(mechanism, problem, start.parameters) == EnergyRate::falls        // quadratic drag, c > 0: P =
-///     −c |v|³
+///     // quadratic drag, c > 0: P = −c |v|³
+///     energy_rate(mechanism, problem, start.parameters) == EnergyRate::falls
 ///
 /// About a strict minimum of the potential the energy is Lyapunov's function: the motion is stable if it never
 /// grows (Lagrange and Dirichlet), and unstable if it grows in every motion, which then leaves all levels near the

@@ -54,7 +54,7 @@ void check_contacts(const Derived& d, const Start& start) {
     if (d.mechanism.unilateral.empty()) return;
     const ContactView view(d.mechanism);
     const State<double> state = start.state();
-    const Lasting lasting = contacts_at_rest(view, state, closed_gap);
+    const LastingContacts lasting = contacts_at_rest(view, state, closed_gap);
     if (lasting.closed.empty()) return;
     std::vector<std::string> names;
     for (const int k : lasting.closed) names.push_back(d.mechanism.unilateral[k].gap.name);
@@ -81,11 +81,11 @@ StateKnown known_at(const Derived& d, const SteadyProblem& problem, const Start&
     std::vector<int> essential;
     for (std::size_t k = 0; k < split.q.size(); ++k)
         if (problem.essential()[static_cast<std::size_t>(split.q[k])]) essential.push_back(static_cast<int>(k));
-    CertainPoint point{.parameters = exact_parameters(d.mechanism, start, {}),
-                       .t = Certain::about(static_cast<Quad>(start.t), 0)};
+    RealBallPoint point{.parameters = exact_parameters(d.mechanism, start, {}),
+                        .t = RealBall::about(static_cast<Quad>(start.t), 0)};
     const auto certain = [](const std::vector<long double>& list) {
-        CertainVector result;
-        for (const long double x : list) result.push_back(x == 0 ? Certain(0) : Certain::about(x, 0));
+        RealBallVector result;
+        for (const long double x : list) result.push_back(x == 0 ? RealBall(0) : RealBall::about(x, 0));
         return result;
     };
     point.q = certain(at.q);
@@ -208,7 +208,7 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
     for (ClosedRoot& root : *roots) {
         const std::vector<double> q = numbers(m, root.value, start);
         if (!std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); })) {
-            result.absent.push_back(std::move(root));
+            result.not_real.push_back(std::move(root));
             continue;
         }
         Instant<long double> at = problem.start();
@@ -244,7 +244,7 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
     });
     for (const Equilibrium& one : result.list) agrees = agrees && one.exact;
     result.closed = agrees && result.mechanism.frictions.empty() && !turns_otherwise(result, problem);
-    std::sort(result.absent.begin(), result.absent.end(),
+    std::sort(result.not_real.begin(), result.not_real.end(),
               [](const ClosedRoot& a, const ClosedRoot& b) { return a.text < b.text; });
 }
 

@@ -46,8 +46,8 @@ struct Equilibria : Derived {
     /// Coordinates on which nothing depends, so that they may have any value.
     std::vector<std::string> cyclic = {};
     bool closed = false;  ///< whether the equations were solved in the parameters, so that the list is complete
-    std::vector<ClosedRoot> absent = {};  ///< solutions that are not real at these parameters
-    std::string nothing = {};             ///< the reason why the list is empty, and what was searched
+    std::vector<ClosedRoot> not_real = {};  ///< solutions that are not real at these parameters
+    std::string nothing = {};               ///< the reason why the list is empty, and what was searched
 };
 
 /// Throws ModelError if there can be no equilibrium (an input changes with time, or a force has no counterpart) or

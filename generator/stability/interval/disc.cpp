@@ -44,8 +44,8 @@ public:
         return rows;
     }
 
-    CertainVector at(const CertainPoint& point) const {
-        CertainVector z;
+    RealBallVector at(const RealBallPoint& point) const {
+        RealBallVector z;
         for (const int i : coordinates_) z.push_back(point.q[i]);
         for (const int i : split_.u_dependent) z.push_back(point.u[i]);
         z.resize(static_cast<std::size_t>(unknowns()));
@@ -53,7 +53,7 @@ public:
     }
 
     /// The residuals, as series in the unknowns where there are monomials.
-    std::vector<Expansion> values(const CertainPoint& point, const CertainVector& z,
+    std::vector<Expansion> values(const RealBallPoint& point, const RealBallVector& z,
                                   const Monomials* monomials) const {
         const auto entry = [&](int k) {
             return monomials != nullptr ? Expansion::variable(*monomials, k, z[k]) : Expansion(z[k]);
@@ -93,15 +93,15 @@ private:
     std::vector<int> coordinates_, at_rest_, forces_;
 };
 
-CertainMatrix slopes(const std::vector<Expansion>& values, int unknowns) {
-    CertainMatrix result(static_cast<int>(values.size()), unknowns);
+RealBallMatrix slopes(const std::vector<Expansion>& values, int unknowns) {
+    RealBallMatrix result(static_cast<int>(values.size()), unknowns);
     for (int i = 0; i < result.rows; ++i)
         for (int k = 0; k < unknowns; ++k) result(i, k) = values[i].coefficient(k + 1);
     return result;
 }
 
-CertainVector middles(CertainVector list) {
-    for (Certain& x : list) x = Certain::about(x.middle(), 0);
+RealBallVector middles(RealBallVector list) {
+    for (RealBall& x : list) x = RealBall::about(x.middle(), 0);
     return list;
 }
 
@@ -122,51 +122,51 @@ const char* name_of(StateKnown known) {
 }
 
 StateKnown disc_around(const Residuals& residuals, const Split& split, const std::vector<int>& essential,
-                       const std::vector<int>& silent, const CertainPoint& point, double radius) try {
+                       const std::vector<int>& silent, const RealBallPoint& point, double radius) try {
     const Balance balance(residuals, split, essential, silent);
     const int n = balance.unknowns(), places = n - 2 * residuals.kept;
     if (!residuals.rates_are_speeds || n != balance.equations() || n > most_unknowns)
         return StateKnown::in_numbers;
     const Monomials linear(n, 1);
-    CertainVector middle = middles(balance.at(point));
+    RealBallVector middle = middles(balance.at(point));
     std::vector<int> reactions(n - places);
     std::iota(reactions.begin(), reactions.end(), places);
     const auto newton =
         [&](const std::vector<int>& rows,
-            const std::vector<int>& columns) -> std::optional<std::pair<CertainMatrix, CertainVector>> {
+            const std::vector<int>& columns) -> std::optional<std::pair<RealBallMatrix, RealBallVector>> {
         const std::vector<Expansion> here = balance.values(point, middle, &linear);
-        CertainMatrix by = slopes(here, n).part(rows, columns), left(by.rows, 1);
+        RealBallMatrix by = slopes(here, n).part(rows, columns), left(by.rows, 1);
         by.entries = middles(std::move(by.entries));
         for (int i = 0; i < by.rows; ++i) left(i, 0) = here[rows[i]].value();
-        auto inverse = solution(std::move(by), CertainMatrix::identity(left.rows));
+        auto inverse = solution(std::move(by), RealBallMatrix::identity(left.rows));
         if (!inverse) return std::nullopt;
         inverse->entries = middles(std::move(inverse->entries));
-        CertainVector step = (*inverse * left).entries;
+        RealBallVector step = (*inverse * left).entries;
         return std::pair(*std::move(inverse), std::move(step));
     };
     const auto first = newton(balance.rows_of_reactions(), reactions);
     if (!first) return StateKnown::open;
     for (int k = places; k < n; ++k)
-        middle[k] = Certain::about(middle[k].middle() - first->second[k - places].middle(), 0);
+        middle[k] = RealBall::about(middle[k].middle() - first->second[k - places].middle(), 0);
     std::vector<int> all(n);
     std::iota(all.begin(), all.end(), 0);
     const auto whole = newton(all, all);
     if (!whole) return StateKnown::open;
     const auto& [inverse, step] = *whole;
     std::vector<double> half(n);
-    CertainVector box = middle, change;
+    RealBallVector box = middle, change;
     for (int k = 0; k < n; ++k) {
         const double size = std::max(1.0, std::abs(middle[k].number()));
         half[k] = radius * size * (k < places ? 1 : wider);
         if (k >= places) half[k] += 4 * (std::abs(step[k].number()) + step[k].radius());
-        box[k] = Certain::about(middle[k].middle(), half[k]);
-        change.push_back(Certain::about(0, half[k]));
+        box[k] = RealBall::about(middle[k].middle(), half[k]);
+        change.push_back(RealBall::about(0, half[k]));
     }
-    CertainMatrix rest = inverse * slopes(balance.values(point, box, &linear), n);
+    RealBallMatrix rest = inverse * slopes(balance.values(point, box, &linear), n);
     for (int i = 0; i < n; ++i)
-        for (int k = 0; k < n; ++k) rest(i, k) = Certain(i == k ? 1 : 0) - rest(i, k);
+        for (int k = 0; k < n; ++k) rest(i, k) = RealBall(i == k ? 1 : 0) - rest(i, k);
     for (int i = 0; i < n; ++i) {
-        Certain image = -step[i];
+        RealBall image = -step[i];
         for (int k = 0; k < n; ++k) image += rest(i, k) * change[k];
         if (!(std::abs(image.number()) + image.radius() < half[i])) return StateKnown::open;
     }

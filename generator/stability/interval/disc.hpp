@@ -3,8 +3,7 @@
 
 /// Whether there is an equilibrium or a steady motion at a state that was found in numbers, and one only near it.
 ///
-///     disc_around(residuals, split, essential, point, 1e-26)      // StateKnown::proved: within that of each
-///     number
+///     disc_around(residuals, split, essential, point, 1e-26)      // StateKnown::proved: no number is off by more
 ///
 /// The balance of forces, the constraints and their velocities are equations in the coordinates on which something
 /// depends, the speeds that constraints give, their rates and the multipliers. Krawczyk's operator
@@ -30,6 +29,6 @@ const char* name_of(StateKnown known);
 /// `essential`: positions in split.q; `silent`: positions in split.u along which no force acts in any state.
 /// `radius` is relative to numbers above 1.
 StateKnown disc_around(const Residuals& residuals, const Split& split, const std::vector<int>& essential,
-                       const std::vector<int>& silent, const CertainPoint& point, double radius);
+                       const std::vector<int>& silent, const RealBallPoint& point, double radius);
 
 }  // namespace alembert

@@ -37,10 +37,10 @@ Monomials::Monomials(int variables, int degree) : variables_(variables), degree_
         }
 }
 
-Expansion Expansion::variable(const Monomials& monomials, int variable, const Certain& value) {
+Expansion Expansion::variable(const Monomials& monomials, int variable, const RealBall& value) {
     Expansion result(value);
     result.monomials_ = &monomials;
-    result.c_.resize(static_cast<std::size_t>(monomials.size()), Certain(0));
+    result.c_.resize(static_cast<std::size_t>(monomials.size()), RealBall(0));
     if (monomials.degree() > 0) {
         Monomials::Exponents exponents(static_cast<std::size_t>(monomials.variables()), 0);
         exponents[variable] = 1;
@@ -49,16 +49,16 @@ Expansion Expansion::variable(const Monomials& monomials, int variable, const Ce
     return result;
 }
 
-Certain Expansion::coefficient(const Monomials::Exponents& exponents) const {
+RealBall Expansion::coefficient(const Monomials::Exponents& exponents) const {
     int total = 0;
     for (const int e : exponents) total += e;
-    return monomials_ ? c_[monomials_->index(exponents)] : total == 0 ? c_[0] : Certain(0);
+    return monomials_ ? c_[monomials_->index(exponents)] : total == 0 ? c_[0] : RealBall(0);
 }
 
 Expansion& Expansion::operator+=(const Expansion& b) {
     if (!monomials_) {
         monomials_ = b.monomials_;
-        c_.resize(std::max(c_.size(), b.c_.size()), Certain(0));
+        c_.resize(std::max(c_.size(), b.c_.size()), RealBall(0));
     }
     for (std::size_t k = 0; k < b.c_.size(); ++k) c_[k] += b.c_[k];
     return *this;
@@ -68,10 +68,10 @@ Expansion operator*(const Expansion& a, const Expansion& b) {
     if (!a.monomials_ && b.monomials_) return b * a;
     Expansion result = a;
     if (!b.monomials_) {
-        for (Certain& c : result.c_) c *= b.c_[0];
+        for (RealBall& c : result.c_) c *= b.c_[0];
         return result;
     }
-    for (Certain& c : result.c_) c = 0;
+    for (RealBall& c : result.c_) c = 0;
     for (std::size_t i = 0; i < a.c_.size(); ++i) {
         if (a.c_[i].is_zero()) continue;
         for (std::size_t j = 0; j < b.c_.size(); ++j) {
@@ -83,7 +83,7 @@ Expansion operator*(const Expansion& a, const Expansion& b) {
     return result;
 }
 
-Expansion Expansion::composed(const Expansion& a, const std::vector<Certain>& series) {
+Expansion Expansion::composed(const Expansion& a, const std::vector<RealBall>& series) {
     if (!a.monomials_) return Expansion(series[0]);
     Expansion h = a;
     h.c_[0] = 0;
@@ -94,12 +94,12 @@ Expansion Expansion::composed(const Expansion& a, const std::vector<Certain>& se
 
 Expansion derivative(const Expansion& a, int variable) {
     Expansion result = a;
-    for (Certain& c : result.c_) c = 0;
+    for (RealBall& c : result.c_) c = 0;
     for (std::size_t k = 0; a.monomials_ && k < a.c_.size(); ++k) {
         Monomials::Exponents exponents = a.monomials_->exponents(static_cast<int>(k));
         const int times = exponents[static_cast<std::size_t>(variable)]--;
         if (times > 0 && !a.c_[k].is_zero())
-            result.c_[static_cast<std::size_t>(a.monomials_->index(exponents))] += Certain(times) * a.c_[k];
+            result.c_[static_cast<std::size_t>(a.monomials_->index(exponents))] += RealBall(times) * a.c_[k];
     }
     return result;
 }
@@ -120,8 +120,8 @@ Expansion put_into(const Expansion& a, const std::vector<Expansion>& at) {
 
 Expansion operator/(const Expansion& a, const Expansion& b) {
     if (b.value().may_be_zero()) throw NotAnalytic(say("a division by zero"));
-    const Certain inverse = Certain(1) / b.value();
-    std::vector<Certain> series{inverse};
+    const RealBall inverse = RealBall(1) / b.value();
+    std::vector<RealBall> series{inverse};
     for (int k = 0; k < b.degree(); ++k) series.push_back(-series.back() * inverse);
     return a * Expansion::composed(b, series);
 }
@@ -135,29 +135,29 @@ bool operator<(const Expansion& a, const Expansion& b) {
 namespace {
 
 /// f, f', f'', f''' and so on cyclically, divided by k!.
-std::vector<Certain> cyclic(const std::vector<Certain>& derivatives, int degree) {
-    std::vector<Certain> result;
+std::vector<RealBall> cyclic(const std::vector<RealBall>& derivatives, int degree) {
+    std::vector<RealBall> result;
     Rational factorial = 1;
     for (int k = 0; k <= degree; ++k) {
         if (k > 0) factorial = factorial * k;
-        result.push_back(derivatives[k % derivatives.size()] * Certain(1 / factorial));
+        result.push_back(derivatives[k % derivatives.size()] * RealBall(1 / factorial));
     }
     return result;
 }
 
 /// The series whose derivative has the series `slope`; its value at the point is given.
-std::vector<Certain> integrated(const Certain& value, const std::vector<Certain>& slope) {
-    std::vector<Certain> result{value};
+std::vector<RealBall> integrated(const RealBall& value, const std::vector<RealBall>& slope) {
+    std::vector<RealBall> result{value};
     for (std::size_t k = 0; k + 1 < slope.size(); ++k)
-        result.push_back(slope[k] * Certain(Rational(1) / static_cast<int>(k + 1)));
+        result.push_back(slope[k] * RealBall(Rational(1) / static_cast<int>(k + 1)));
     return result;
 }
 
 /// The series of f(x₀ + h) in h.
-std::vector<Certain> in_one(const Certain& x, int degree, const std::function<Expansion(const Expansion&)>& f) {
+std::vector<RealBall> in_one(const RealBall& x, int degree, const std::function<Expansion(const Expansion&)>& f) {
     const Monomials line(1, degree);
     const Expansion value = f(Expansion::variable(line, 0, x));
-    std::vector<Certain> result;
+    std::vector<RealBall> result;
     for (int k = 0; k <= degree; ++k) result.push_back(value.coefficient(k));
     return result;
 }
@@ -165,11 +165,11 @@ std::vector<Certain> in_one(const Certain& x, int degree, const std::function<Ex
 }  // namespace
 
 Expansion sin(const Expansion& a) {
-    const Certain s = sin(a.value()), c = cos(a.value());
+    const RealBall s = sin(a.value()), c = cos(a.value());
     return Expansion::composed(a, cyclic({s, c, -s, -c}, a.degree()));
 }
 Expansion cos(const Expansion& a) {
-    const Certain s = sin(a.value()), c = cos(a.value());
+    const RealBall s = sin(a.value()), c = cos(a.value());
     return Expansion::composed(a, cyclic({c, -s, -c, s}, a.degree()));
 }
 Expansion exp(const Expansion& a) {
@@ -186,7 +186,7 @@ Expansion atan(const Expansion& a) {
     return Expansion::composed(a, integrated(atan(a.value()), slope));
 }
 Expansion asin(const Expansion& a) {
-    const Certain left = Certain(1) - a.value() * a.value();
+    const RealBall left = RealBall(1) - a.value() * a.value();
     if (a.degree() > 0 && left.sign() != 1) throw NotAnalytic(say("asin or acos at the end of its range"));
     if (a.degree() == 0) return Expansion(asin(a.value()));
     const auto slope = in_one(a.value(), a.degree(),
@@ -194,12 +194,12 @@ Expansion asin(const Expansion& a) {
     return Expansion::composed(a, integrated(asin(a.value()), slope));
 }
 Expansion acos(const Expansion& a) {
-    return Expansion(acos(Certain(0))) - asin(a);
+    return Expansion(acos(RealBall(0))) - asin(a);
 }
 
 Expansion pow(const Expansion& a, const Expansion& b) {
     if (b.monomials_) return exp(b * log(a));
-    const Certain& exponent = b.value();
+    const RealBall& exponent = b.value();
     const std::optional<Rational> r = exponent.rational();
     if (r && cln::denominator(*r) == 1 && *r >= 0 && *r <= 64) {
         Expansion result(1);
@@ -210,9 +210,9 @@ Expansion pow(const Expansion& a, const Expansion& b) {
     const bool whole = r && cln::denominator(*r) == 1;
     if (whole ? a.value().may_be_zero() : a.value().sign() != 1)
         throw NotAnalytic(say("a power or root of a base that may be zero"));
-    std::vector<Certain> series{pow(a.value(), exponent)};
+    std::vector<RealBall> series{pow(a.value(), exponent)};
     for (int k = 0; k < a.degree(); ++k)
-        series.push_back(series.back() * (exponent - Certain(k)) / (a.value() * Certain(k + 1)));
+        series.push_back(series.back() * (exponent - RealBall(k)) / (a.value() * RealBall(k + 1)));
     return Expansion::composed(a, series);
 }
 
@@ -224,7 +224,7 @@ Expansion abs(const Expansion& a) {
 }
 
 Expansion atan2(const Expansion& y, const Expansion& x) {
-    const Certain y0 = y.value(), x0 = x.value();
+    const RealBall y0 = y.value(), x0 = x.value();
     const Expansion along = Expansion(x0) * x + Expansion(y0) * y, across = Expansion(x0) * y - Expansion(y0) * x;
     if (along.value().sign() != 1) throw NotAnalytic(say("atan2 at the origin"));
     return Expansion(atan2(y0, x0)) + atan(across / along);

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Power series of several variables about a point, up to a degree. `interpret` over them expands every value of a
-/// Program, exactly if the numbers are exact (certain.hpp).
+/// Program, exactly if the numbers are exact (real_ball.hpp).
 ///
 ///     const Monomials monomials(2, 4);                                   // x, y up to degree 4
 ///     State<Expansion> state = …;
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "program/interpret.hpp"
-#include "stability/interval/certain.hpp"
+#include "stability/interval/real_ball.hpp"
 
 namespace alembert {
 
@@ -50,16 +50,16 @@ private:
 
 class Expansion {
 public:
-    Expansion() : c_{Certain(0)} {}
-    Expansion(int n) : c_{Certain(n)} {}           // NOLINT: a number is a number
-    Expansion(bool b) : c_{Certain(b ? 1 : 0)} {}  // NOLINT
-    explicit Expansion(Certain value) : c_{std::move(value)} {}
+    Expansion() : c_{RealBall(0)} {}
+    Expansion(int n) : c_{RealBall(n)} {}           // NOLINT: a number is a number
+    Expansion(bool b) : c_{RealBall(b ? 1 : 0)} {}  // NOLINT
+    explicit Expansion(RealBall value) : c_{std::move(value)} {}
     /// value + the variable. `monomials` must outlive it.
-    static Expansion variable(const Monomials& monomials, int variable, const Certain& value);
+    static Expansion variable(const Monomials& monomials, int variable, const RealBall& value);
 
-    const Certain& value() const { return c_[0]; }
-    Certain coefficient(const Monomials::Exponents& exponents) const;
-    Certain coefficient(int k) const { return k < static_cast<int>(c_.size()) ? c_[k] : Certain(0); }
+    const RealBall& value() const { return c_[0]; }
+    RealBall coefficient(const Monomials::Exponents& exponents) const;
+    RealBall coefficient(int k) const { return k < static_cast<int>(c_.size()) ? c_[k] : RealBall(0); }
     /// Other operations, such as scaling an argument, are composed of these.
     Expansion& operator+=(const Expansion& b);
     Expansion& operator*=(const Expansion& b) { return *this = *this * b; }
@@ -96,18 +96,18 @@ public:
     friend Expansion put_into(const Expansion& a, const std::vector<Expansion>& at);
 
 private:
-    static Expansion half() { return Expansion(Certain(Rational(1) / 2)); }
+    static Expansion half() { return Expansion(RealBall(Rational(1) / 2)); }
     int degree() const { return monomials_ ? monomials_->degree() : 0; }
     /// Σ series[k]·(a − a₀)^k
-    static Expansion composed(const Expansion& a, const std::vector<Certain>& series);
+    static Expansion composed(const Expansion& a, const std::vector<RealBall>& series);
 
     const Monomials* monomials_ = nullptr;
-    std::vector<Certain> c_;  ///< by monomial; a single one for a constant
+    std::vector<RealBall> c_;  ///< by monomial; a single one for a constant
 };
 
 template <>
 inline Expansion real_of<Expansion>(const Rational& r) {
-    return Expansion(Certain(r));
+    return Expansion(RealBall(r));
 }
 
 }  // namespace alembert

@@ -11,21 +11,21 @@
 
 namespace alembert {
 
-CertainMatrix CertainMatrix::identity(int n) {
-    CertainMatrix result(n, n);
+RealBallMatrix RealBallMatrix::identity(int n) {
+    RealBallMatrix result(n, n);
     for (int i = 0; i < n; ++i) result(i, i) = 1;
     return result;
 }
 
-CertainMatrix CertainMatrix::part(const std::vector<int>& of_rows, const std::vector<int>& of_columns) const {
-    CertainMatrix result(static_cast<int>(of_rows.size()), static_cast<int>(of_columns.size()));
+RealBallMatrix RealBallMatrix::part(const std::vector<int>& of_rows, const std::vector<int>& of_columns) const {
+    RealBallMatrix result(static_cast<int>(of_rows.size()), static_cast<int>(of_columns.size()));
     for (int i = 0; i < result.rows; ++i)
         for (int j = 0; j < result.columns; ++j) result(i, j) = (*this)(of_rows[i], of_columns[j]);
     return result;
 }
 
-CertainMatrix operator*(const CertainMatrix& a, const CertainMatrix& b) {
-    CertainMatrix result(a.rows, b.columns);
+RealBallMatrix operator*(const RealBallMatrix& a, const RealBallMatrix& b) {
+    RealBallMatrix result(a.rows, b.columns);
     for (int i = 0; i < a.rows; ++i)
         for (int k = 0; k < a.columns; ++k)
             if (!a(i, k).is_zero())
@@ -33,20 +33,20 @@ CertainMatrix operator*(const CertainMatrix& a, const CertainMatrix& b) {
     return result;
 }
 
-CertainMatrix operator+(const CertainMatrix& a, const CertainMatrix& b) {
-    CertainMatrix result = a;
+RealBallMatrix operator+(const RealBallMatrix& a, const RealBallMatrix& b) {
+    RealBallMatrix result = a;
     for (std::size_t k = 0; k < a.entries.size(); ++k) result.entries[k] += b.entries[k];
     return result;
 }
 
-CertainMatrix operator*(const Certain& a, const CertainMatrix& b) {
-    CertainMatrix result = b;
-    for (Certain& x : result.entries) x = a * x;
+RealBallMatrix operator*(const RealBall& a, const RealBallMatrix& b) {
+    RealBallMatrix result = b;
+    for (RealBall& x : result.entries) x = a * x;
     return result;
 }
 
-CertainMatrix transposed(const CertainMatrix& a) {
-    CertainMatrix result(a.columns, a.rows);
+RealBallMatrix transposed(const RealBallMatrix& a) {
+    RealBallMatrix result(a.columns, a.rows);
     for (int i = 0; i < a.rows; ++i)
         for (int j = 0; j < a.columns; ++j) result(j, i) = a(i, j);
     return result;
@@ -54,18 +54,18 @@ CertainMatrix transposed(const CertainMatrix& a) {
 
 namespace {
 
-double weight(const Certain& x) {  // the preference for a pivot
+double weight(const RealBall& x) {  // the preference for a pivot
     return x.may_be_zero() ? 0 : std::abs(x.number());
 }
 
-struct CertainField : FieldOperations<Certain> {
+struct RealBallField : FieldOperations<RealBall> {
     double zero = 0;  ///< what may be zero and is smaller counts as zero
 
-    std::optional<std::size_t> pivot(RowsOf<Certain>& rows, std::size_t first, std::size_t column) const {
+    std::optional<std::size_t> pivot(RowsOf<RealBall>& rows, std::size_t first, std::size_t column) const {
         const std::size_t best = largest_in(rows, first, column, weight);
         if (weight(rows[best][column]) != 0) return best;
         for (std::size_t r = first; r < rows.size(); ++r) {
-            Certain& entry = rows[r][column];
+            RealBall& entry = rows[r][column];
             if (!entry.is_zero() && !(std::abs(entry.number()) + entry.radius() < zero)) return std::nullopt;
             entry = 0;
         }
@@ -75,18 +75,18 @@ struct CertainField : FieldOperations<Certain> {
 
 /// Reduced row echelon form of A, with B appended. Returns the columns of the pivots, or nothing if an entry that
 /// should be zero is only near zero.
-std::optional<std::vector<int>> eliminate(CertainMatrix& A, CertainMatrix* B, double zero = 0) {
-    const std::array<CertainMatrix*, 2> parts{&A, B};
-    RowsOf<Certain> rows(static_cast<std::size_t>(A.rows));
+std::optional<std::vector<int>> eliminate(RealBallMatrix& A, RealBallMatrix* B, double zero = 0) {
+    const std::array<RealBallMatrix*, 2> parts{&A, B};
+    RowsOf<RealBall> rows(static_cast<std::size_t>(A.rows));
     for (int i = 0; i < A.rows; ++i)
-        for (const CertainMatrix* const m : parts)
+        for (const RealBallMatrix* const m : parts)
             for (int k = 0; m && k < m->columns; ++k) rows[static_cast<std::size_t>(i)].push_back((*m)(i, k));
-    const CertainField field{{}, zero};
+    const RealBallField field{{}, zero};
     const auto pivots = echelon(rows, static_cast<std::size_t>(A.columns), field);
     if (!pivots) return {};
     for (int i = 0; i < A.rows; ++i) {
         auto entry = rows[static_cast<std::size_t>(i)].begin();
-        for (CertainMatrix* const m : parts)
+        for (RealBallMatrix* const m : parts)
             for (int k = 0; m && k < m->columns; ++k) (*m)(i, k) = std::move(*entry++);
     }
     return std::vector<int>(pivots->begin(), pivots->end());
@@ -94,16 +94,16 @@ std::optional<std::vector<int>> eliminate(CertainMatrix& A, CertainMatrix* B, do
 
 }  // namespace
 
-std::optional<CertainMatrix> solution(CertainMatrix A, CertainMatrix B) {
+std::optional<RealBallMatrix> solution(RealBallMatrix A, RealBallMatrix B) {
     const auto pivots = eliminate(A, &B);
     if (!pivots || static_cast<int>(pivots->size()) < A.rows) return {};
     return B;
 }
 
-std::optional<CertainMatrix> null_space(CertainMatrix A, double zero) {
+std::optional<RealBallMatrix> null_space(RealBallMatrix A, double zero) {
     const auto pivots = eliminate(A, nullptr, zero);
     if (!pivots) return {};
-    CertainMatrix result(A.columns, A.columns - static_cast<int>(pivots->size()));
+    RealBallMatrix result(A.columns, A.columns - static_cast<int>(pivots->size()));
     for (int j = 0, free = 0; j < A.columns; ++j) {
         if (std::find(pivots->begin(), pivots->end(), j) != pivots->end()) continue;
         result(j, free) = 1;
@@ -113,34 +113,34 @@ std::optional<CertainMatrix> null_space(CertainMatrix A, double zero) {
     return result;
 }
 
-std::optional<int> rank(const CertainMatrix& A) {
-    CertainMatrix copy = A;
+std::optional<int> rank(const RealBallMatrix& A) {
+    RealBallMatrix copy = A;
     const auto pivots = eliminate(copy, nullptr);
     if (!pivots) return {};
     return static_cast<int>(pivots->size());
 }
 
-CertainVector characteristic(const CertainMatrix& A) {
+RealBallVector characteristic(const RealBallMatrix& A) {
     const int n = A.rows;
-    CertainVector c{Certain(1)};
-    CertainMatrix M(n, n);
+    RealBallVector c{RealBall(1)};
+    RealBallMatrix M(n, n);
     for (int k = 1; k <= n; ++k) {
         for (int i = 0; i < n; ++i) M(i, i) += c.back();
         M = A * M;
-        Certain trace = 0;
+        RealBall trace = 0;
         for (int i = 0; i < n; ++i) trace += M(i, i);
-        c.push_back(-trace * Certain(Rational(1) / k));
+        c.push_back(-trace * RealBall(Rational(1) / k));
     }
     return c;
 }
 
-std::optional<SignCount> inertia(CertainMatrix A) {
+std::optional<SignCount> inertia(RealBallMatrix A) {
     SignCount result;
     std::vector<bool> done(static_cast<std::size_t>(A.rows), false);
     const auto remove = [&](int p) {
         for (int i = 0; i < A.rows; ++i) {
             if (done[i] || i == p || A(i, p).is_zero()) continue;
-            const Certain factor = A(i, p) / A(p, p);
+            const RealBall factor = A(i, p) / A(p, p);
             for (int j = 0; j < A.rows; ++j)
                 if (!done[j] && j != p) A(i, j) -= factor * A(p, j);
         }
@@ -178,7 +178,7 @@ std::optional<SignCount> inertia(CertainMatrix A) {
     return result;
 }
 
-std::vector<std::vector<int>> diagonal_blocks(const CertainMatrix& A) {
+std::vector<std::vector<int>> diagonal_blocks(const RealBallMatrix& A) {
     const int n = A.rows;
     std::vector<std::vector<bool>> reach(static_cast<std::size_t>(n),
                                          std::vector<bool>(static_cast<std::size_t>(n)));

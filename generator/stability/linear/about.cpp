@@ -85,7 +85,7 @@ void close_contacts(Derived& d, const Start& start) {
     const ContactView view(d.mechanism);
     const State<double> state = start.state();
     check_gaps(d.scene, d.mechanism, view, state, tolerance::closed_gap);
-    const Lasting lasting = contacts_at_rest(view, state, tolerance::closed_gap);
+    const LastingContacts lasting = contacts_at_rest(view, state, tolerance::closed_gap);
     const std::vector<std::string> idle = touching_without_force(view, state, lasting);
     if (!idle.empty())
         throw ModelError(say(

@@ -106,9 +106,9 @@ void close(std::vector<bool>& essential, const Dependences& depends, Index p) {
 }
 
 /// What moves coordinates where the independent speeds w are zero: b of r' = S w + b.
-class Drift {
+class RateOffset {
 public:
-    Drift(const Residuals& residuals, const Split& split, const Instant<long double>& at)
+    RateOffset(const Residuals& residuals, const Split& split, const Instant<long double>& at)
         : residuals_(residuals), split_(split), at_(at), nr_(static_cast<Index>(split.q.size())) {
         for (const int i : split.u) at_.u[i] = 0;
     }
@@ -201,9 +201,9 @@ std::vector<bool> essential_coordinates(const Dependences& depends, const Residu
     std::vector<bool> result(split.q.size(), false);
     close(result, depends, p);
     if (std::find(result.begin(), result.end(), false) == result.end()) return result;
-    Drift drift(residuals, split, at);
-    for (const std::vector<Index>& circle : circles(drift.by_coordinates(), result))
-        if (!drift.is_of_speeds(circle))
+    RateOffset offset(residuals, split, at);
+    for (const std::vector<Index>& circle : circles(offset.by_coordinates(), result))
+        if (!offset.is_of_speeds(circle))
             for (const Index j : circle) result[j] = true;
     close(result, depends, p);
     return result;

@@ -72,13 +72,13 @@ private:
         for (const auto& part : parts) values.push_back(part.second);
         Program program = begun(m_);
         const std::vector<int> nodes = lower_expressions(program, m_, values);
-        State<Germ> state;
-        const auto about = [](long double x) { return Germ(x, 1e-13L * std::max(1.0L, std::abs(x))); };
-        for (const long double x : at_.parameters) state.parameters.push_back(Germ(x));
+        State<PuiseuxSeries> state;
+        const auto about = [](long double x) { return PuiseuxSeries(x, 1e-13L * std::max(1.0L, std::abs(x))); };
+        for (const long double x : at_.parameters) state.parameters.push_back(PuiseuxSeries(x));
         for (const long double x : at_.q) state.q.push_back(about(x));
         for (const int node : r_.rate) state.qdot.push_back(about(point_[node].at(0).value));
-        state.t = Germ(at_.t);
-        const std::vector<Germ> value = interpret(program, state);
+        state.t = PuiseuxSeries(at_.t);
+        const std::vector<PuiseuxSeries> value = interpret(program, state);
         std::vector<std::pair<std::string, std::string>> found;  // function, label
         for (std::size_t k = 0; k < nodes.size(); ++k)
             for (const int id : critical_nodes(program, std::vector<int>{nodes[k]}, value))
@@ -116,7 +116,7 @@ private:
 
     const Residuals& r_;
     const Instant<long double>& at_;
-    const std::vector<Germ>& point_;
+    const std::vector<PuiseuxSeries>& point_;
     const Mechanism& m_;
     const Equations& e_;
 };

@@ -17,7 +17,7 @@ namespace alembert {
 struct KinkPlace {
     const Residuals& residuals;
     const Instant<long double>& at;
-    const std::vector<Germ>& value;  ///< of all nodes at the state
+    const std::vector<PuiseuxSeries>& value;  ///< of all nodes at the state
     const Mechanism& mechanism;
     const Equations& equations;
 };

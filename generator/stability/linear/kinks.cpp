@@ -26,11 +26,11 @@ constexpr long double linear_to = 1e-9L;
 /// A function Σ factor · node that linearization differentiates or that must be continuous.
 struct Wanted {
     std::string name;  ///< "the equation of x"
-    std::vector<std::pair<int, Germ>> terms;
+    std::vector<std::pair<int, PuiseuxSeries>> terms;
     bool derivative = true;
 
-    Germ on(const std::vector<Germ>& value) const {
-        Germ sum(0);
+    PuiseuxSeries on(const std::vector<PuiseuxSeries>& value) const {
+        PuiseuxSeries sum(0);
         for (const auto& [node, factor] : terms)
             if (factor.side() != 0) sum += factor * value[node];
         return sum;
@@ -68,25 +68,25 @@ private:
     void collect() {
         const auto about = [](long double x,
                               int sign) {  // at an equilibrium where the formula has no value u' is 0
-            return Germ(std::isfinite(x) ? sign * x : 0,
-                        std::isfinite(x) ? rest_known_to * std::max(1.0L, std::abs(x)) : rest_known_to);
+            return PuiseuxSeries(std::isfinite(x) ? sign * x : 0,
+                                 std::isfinite(x) ? rest_known_to * std::max(1.0L, std::abs(x)) : rest_known_to);
         };
         const auto single = [&](const std::string& name, int node, bool derivative) {
-            wanted_.push_back({name, {{node, Germ(1)}}, derivative});
+            wanted_.push_back({name, {{node, PuiseuxSeries(1)}}, derivative});
         };
         const auto mass = [&](int i, int j) {
             return r_.mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)];
         };
         for (int i = 0; i < r_.s; ++i) {
             const std::string name = say("the right-hand side of the equation for {}'", speed(i));
-            Wanted force{name, {{r_.forcing[i], Germ(1)}}};
+            Wanted force{name, {{r_.forcing[i], PuiseuxSeries(1)}}};
             for (int j = 0; j < r_.s; ++j) force.terms.emplace_back(mass(i, j), about(here_.udot[j], -1));
             for (int k = 0; k < r_.kept; ++k)
                 force.terms.emplace_back(r_.row[k * r_.s + i], about(here_.lambda[k], 1));
             wanted_.push_back(std::move(force));
         }
         for (int k = 0; k < r_.kept; ++k) {
-            Wanted acceleration{say("the acceleration of a constraint"), {{r_.gamma[k], Germ(-1)}}};
+            Wanted acceleration{say("the acceleration of a constraint"), {{r_.gamma[k], PuiseuxSeries(-1)}}};
             for (int i = 0; i < r_.s; ++i)
                 acceleration.terms.emplace_back(r_.row[k * r_.s + i], about(here_.udot[i], 1));
             wanted_.push_back(std::move(acceleration));
@@ -111,7 +111,7 @@ private:
     }
 
     struct Sides {
-        std::vector<Germ> above, below;
+        std::vector<PuiseuxSeries> above, below;
     };
 
     /// Paths in both directions along Σ weight · direction, with some curvature normal to the constraints.
@@ -131,7 +131,7 @@ private:
         for (std::size_t j = 0; j < columns_.size(); ++j) {
             const Sides both = sides(Column::Unit(static_cast<Index>(columns_.size()), static_cast<Index>(j)));
             for (std::size_t k = 0; k < wanted_.size(); ++k) {
-                const Germ above = wanted_[k].on(both.above), below = wanted_[k].on(both.below);
+                const PuiseuxSeries above = wanted_[k].on(both.above), below = wanted_[k].on(both.below);
                 const std::string what = fault(wanted_[k], above, below, names_[j]);
                 if (!what.empty()) refuse(blamed(wanted_[k], both), wanted_[k].name, what);
                 slope_[k].push_back(above.at(1));
@@ -152,7 +152,7 @@ private:
         for (const Column& weight : weights) {
             const Sides both = sides(weight);
             for (std::size_t k = 0; k < wanted_.size(); ++k) {
-                const Germ above = wanted_[k].on(both.above), below = wanted_[k].on(both.below);
+                const PuiseuxSeries above = wanted_[k].on(both.above), below = wanted_[k].on(both.below);
                 std::string what = fault(wanted_[k], above, below, "");
                 if (what.empty() && wanted_[k].derivative && !is_linear(slope_[k], weight, above.at(1)))
                     what = say("has derivatives that depend on the direction in a way that is not linear");
@@ -161,7 +161,8 @@ private:
         }
     }
 
-    static bool is_linear(const std::vector<Germ::Term>& slopes, const Column& weight, const Germ::Term& found) {
+    static bool is_linear(const std::vector<PuiseuxSeries::Term>& slopes, const Column& weight,
+                          const PuiseuxSeries::Term& found) {
         long double sum = 0, allowed = found.error;
         for (std::size_t j = 0; j < slopes.size(); ++j) {
             const long double w = weight[static_cast<Index>(j)], part = w * slopes[j].value;
@@ -173,8 +174,9 @@ private:
 
     /// The fault of this function on the two sides; empty if there is none. `by` is the variable that changes, if
     /// there is only one.
-    std::string fault(const Wanted& f, const Germ& above, const Germ& below, const std::string& by) const {
-        const Germ here = f.on(point_);
+    std::string fault(const Wanted& f, const PuiseuxSeries& above, const PuiseuxSeries& below,
+                      const std::string& by) const {
+        const PuiseuxSeries here = f.on(point_);
         if (!here.defined() && !above.defined() && !below.defined())
             return say(
                 "has no value at this state: it divides by 0, or an argument is outside its function's domain");
@@ -184,21 +186,21 @@ private:
                               : say("where {} falls", by);
         };
         for (const bool up : {true, false}) {
-            const Germ& x = up ? above : below;
+            const PuiseuxSeries& x = up ? above : below;
             if (!x.defined()) return say("has no value {}: the state is on the border of its domain", side(up));
-            const Germ::Term *first = x.leading(), start = x.at(0), rest = here.at(0);
+            const PuiseuxSeries::Term *first = x.leading(), start = x.at(0), rest = here.at(0);
             if (first != nullptr && first->exponent < -1e-9) return say("grows without bound {}", side(up));
             if (here.defined() &&
                 std::abs(start.value - rest.value) >
                     start.error + rest.error + linear_to * (std::abs(start.value) + std::abs(rest.value)))
                 return say("jumps {}: from {} to {}", side(up), shown(rest.value), shown(start.value));
             if (!f.derivative) continue;
-            for (const Germ::Term& term : x.terms())
+            for (const PuiseuxSeries::Term& term : x.terms())
                 if (term.value != 0 && term.exponent < 1 - 1e-9 && term.exponent > 1e-9)
                     return say("has an infinite slope {}", side(up));
             if (x.order() <= 1) return say("has a slope that the series do not decide {}", side(up));
         }
-        const Germ::Term up = above.at(0), down = below.at(0);
+        const PuiseuxSeries::Term up = above.at(0), down = below.at(0);
         if (!here.defined() && std::abs(up.value - down.value) >
                                    up.error + down.error + linear_to * (std::abs(up.value) + std::abs(down.value)))
             return say("has no value at this state, and two limits: {} {}, and {} {}", shown(up.value), side(true),
@@ -245,12 +247,12 @@ private:
     const Mechanism& m_;
     const Equations& e_;
     Index size_;
-    std::vector<Germ> point_;
+    std::vector<PuiseuxSeries> point_;
     std::vector<int> critical_;
     std::vector<Wanted> wanted_;
     std::vector<Index> columns_;
     std::vector<std::string> names_;
-    std::vector<std::vector<Germ::Term>> slope_;
+    std::vector<std::vector<PuiseuxSeries::Term>> slope_;
     std::mt19937_64 random_{20261};
 };
 

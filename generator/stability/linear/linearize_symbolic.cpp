@@ -170,7 +170,7 @@ private:
         }
         for (const Mechanism::Constraint& c : m_.constraints) {
             std::vector<ex> row;
-            ex speed = m_.z->expand(c.drift);
+            ex speed = m_.z->expand(c.offset);
             for (int i = 0; i < n_; ++i) {
                 row.push_back(m_.z->expand(c.row[i]));
                 speed += row.back() * m_.qdot[i];

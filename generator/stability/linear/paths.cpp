@@ -13,13 +13,13 @@ constexpr long double equal_to = 1e-10L;  // slopes that differ by less are equa
 
 /// Is the argument of this node's function at a point where the function is not analytic, or has it no value?
 /// `value` are the values at a single point.
-bool is_critical(const Program& program, int id, const std::vector<Germ>& value) {
+bool is_critical(const Program& program, int id, const std::vector<PuiseuxSeries>& value) {
     const Node& node = program[id];
     if (node.is_constant() || node.args.empty()) return false;
     for (const int arg : node.args)
         if (!value[arg].defined()) return false;
     if (!value[id].defined()) return true;
-    const Germ& x = value[node.args[0]];
+    const PuiseuxSeries& x = value[node.args[0]];
     switch (node.op) {
         case Op::abs:
         case Op::sign:
@@ -45,17 +45,17 @@ bool is_critical(const Program& program, int id, const std::vector<Germ>& value)
 
 }  // namespace
 
-std::vector<Germ> on_path(const Residuals& r, const Instant<long double>& at, const VectorOf<long double>& d,
-                          const VectorOf<long double>& c) {
+std::vector<PuiseuxSeries> on_path(const Residuals& r, const Instant<long double>& at,
+                                   const VectorOf<long double>& d, const VectorOf<long double>& c) {
     Eigen::Index next = 0;
     const auto variable = [&](long double x) {
         const long double first = d[next], second = c.size() > 0 ? c[next] : 0;
         ++next;
-        return Germ::path(x, known_to * std::max(1.0L, std::abs(x)), {first, second});
+        return PuiseuxSeries::path(x, known_to * std::max(1.0L, std::abs(x)), {first, second});
     };
-    State<Germ> state;
+    State<PuiseuxSeries> state;
     for (const long double x : at.parameters)
-        state.parameters.push_back(Germ(x, parameter_known_to * std::abs(x)));
+        state.parameters.push_back(PuiseuxSeries(x, parameter_known_to * std::abs(x)));
     for (const long double x : at.q) state.q.push_back(variable(x));
     for (const long double x : at.u) state.qdot.push_back(variable(x));
     state.t = variable(at.t);
@@ -66,7 +66,7 @@ std::vector<Germ> on_path(const Residuals& r, const Instant<long double>& at, co
 }
 
 std::vector<int> critical_nodes(const Program& program, std::span<const int> nodes,
-                                const std::vector<Germ>& value) {
+                                const std::vector<PuiseuxSeries>& value) {
     std::vector<int> result;
     for (const int id : program.needed(nodes))
         if (is_critical(program, id, value)) result.push_back(id);
@@ -81,13 +81,13 @@ bool is_at_kink(const Residuals& r, const Instant<long double>& at) {
     return !critical_nodes(r.program, roots, on_path(r, at, VectorOf<long double>::Zero(columns))).empty();
 }
 
-std::optional<long double> slope(const Germ& there, const Germ& back) {
-    for (const Germ* side : {&there, &back}) {
+std::optional<long double> slope(const PuiseuxSeries& there, const PuiseuxSeries& back) {
+    for (const PuiseuxSeries* side : {&there, &back}) {
         if (!side->defined() || side->order() <= 1) return {};
-        for (const Germ::Term& term : side->terms())
+        for (const PuiseuxSeries::Term& term : side->terms())
             if (term.value != 0 && term.exponent < 1 - 1e-9 && std::abs(term.exponent) > 1e-9) return {};
     }
-    const auto agree = [](const Germ::Term& a, const Germ::Term& b, int sign) {
+    const auto agree = [](const PuiseuxSeries::Term& a, const PuiseuxSeries::Term& b, int sign) {
         return std::abs(a.value - sign * b.value) <=
                a.error + b.error + equal_to * (std::abs(a.value) + std::abs(b.value));
     };

@@ -40,7 +40,7 @@ Residuals::Residuals(const Mechanism& m, const Equations& e, const std::vector<b
         }
     for (const int k : e.kept(m)) {
         const Mechanism::Constraint& c = m.constraints[k];
-        GiNaC::exvector terms{c.drift};
+        GiNaC::exvector terms{c.offset};
         for (int i = 0; i < n; ++i) terms.push_back(c.row[i] * rate_of(i));
         motion.emplace_back(Group::velocity, m.z->name(GiNaC::add(std::move(terms))));
     }

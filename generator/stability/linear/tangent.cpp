@@ -65,7 +65,7 @@ private:
                                          .u = {at.u.begin(), at.u.end()},
                                          .inputs = {at.inputs.begin(), at.inputs.end()},
                                          .t = static_cast<long double>(at.t)};
-        const std::vector<Germ> here = on_path(r_, point, VectorOf<long double>::Zero(columns));
+        const std::vector<PuiseuxSeries> here = on_path(r_, point, VectorOf<long double>::Zero(columns));
         std::vector<int> broken;
         for (const Root& root : r_.program.roots)
             if (root.group != Group::input &&
@@ -73,7 +73,7 @@ private:
                 broken.push_back(root.node);
         for (Index k = 0; k < columns; ++k) {
             const VectorOf<long double> d = VectorOf<long double>::Unit(columns, k);
-            const std::vector<Germ> there = on_path(r_, point, d), back = on_path(r_, point, -d);
+            const std::vector<PuiseuxSeries> there = on_path(r_, point, d), back = on_path(r_, point, -d);
             for (const int node : broken)
                 if (const auto found = slope(there[node], back[node])) {
                     value_[node].d.resize(static_cast<std::size_t>(columns), Real(0));

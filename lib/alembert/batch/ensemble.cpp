@@ -35,13 +35,13 @@ struct Size {
 template <const auto& tableau>
 void run_packed(const Ensemble& e, const Options& options, const MemberSource& source, int width) {
     const Size size(e);
-    PackRun(e, options, source, PackStep<tableau>(e.module, size.dimension, size.extra)).go(width);
+    PackDriver(e, options, source, PackExplicitRK<tableau>(e.module, size.dimension, size.extra)).go(width);
 }
 
 void run_packed_series(const Ensemble& e, const Options& options, const MemberSource& source, int width) {
     const Size size(e);
-    PackRun(e, options, source,
-            PackTaylor(e.module, *e.series_packs, size.dimension, size.extra, options.tolerance))
+    PackDriver(e, options, source,
+               PackTaylor(e.module, *e.series_packs, size.dimension, size.extra, options.tolerance))
         .go(width);
 }
 
@@ -218,14 +218,12 @@ private:
         }
         const alembert_solver_table& table = e_.module.table();
         const bool works = e_.work == Work::integrated;
-        System system{.rhs = rhs_of(e_, member.parameters),
-                      .quick_times = member.quick_times != nullptr ? *member.quick_times : options_.quick_times};
+        System system{.rhs = rhs_of(e_, member.parameters), .quick_times = quick_times_of(member)};
         const std::vector<double> par = prepared(e_.module, member.parameters);
         system.quick_places = {e_.place_code, par};
         const std::vector<double> state = with_quadratures(e_, member.state);
-        Drift drift(table.coordinates, table.speeds, works);
+        EnergyError energy_error(table.coordinates, table.speeds, works);
         Options options = options_;
-        options.quick_times = {};
         options.start = member.start;
         options.duration = member.duration;
         options.sample = member.duration;  // no rows but the end
@@ -238,7 +236,7 @@ private:
                 return false;
             };
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
-            drift(table, par, t, y, rate);
+            energy_error(table, par, t, y, rate);
             if (!e_.along) return;
             for (const Passing& one : passing)
                 if (one.t < t) along(one.t, one.state.data(), one.rate.data());
@@ -263,8 +261,8 @@ private:
                     .steps = motion.statistics.steps,
                     .rejected = motion.statistics.rejected,
                     .evaluations = motion.statistics.evaluations,
-                    .energy_drift = drift.energy(),
-                    .work_balance = drift.balance(),
+                    .energy_drift = energy_error.energy(),
+                    .work_balance = energy_error.balance(),
                     .stopped = motion.ending == Ending::stopped_by_event,
                     .failure = motion.failure ? motion.failure->message : std::string(),
                     .along = e_.along ? along.values() : std::vector<double>()},

@@ -52,12 +52,12 @@ struct Ensemble {
     /// `integrated` gives the work balance, for systems whose energy is not conserved.
     Work work = Work::left_out;
     SeriesModule series = {};  ///< for the method taylor; with the work of loads if that is integrated
-    std::shared_ptr<const SeriesPacks> series_packs = {};  ///< the same for eight members; may be null
-    std::shared_ptr<const EventCode> event_code = {};      ///< of the module's events; may be null
-    std::shared_ptr<const EventCode> place_code = {};      ///< QuickPlaces::code; may be null
+    std::shared_ptr<const PackSeries> series_packs = {};  ///< the same for eight members; may be null
+    std::shared_ptr<const EventCode> event_code = {};     ///< of the module's events; may be null
+    std::shared_ptr<const EventCode> place_code = {};     ///< QuickPlaces::code; may be null
     std::vector<bool> stops = {};  ///< which of the module's events end a motion; if empty, none does
-    /// One list for each member; if empty, Options::quick_times.
-    std::vector<std::vector<QuickTime>> quick_times = {};
+    /// One list for each member; if empty, none has any.
+    std::vector<std::vector<InputTimeScale>> quick_times = {};
     /// The directions in which zeros of the events count (Event); if empty, both.
     std::vector<int> directions = {};
     bool along = false;  ///< whether outcomes have extremes and means along the motion
@@ -102,9 +102,14 @@ struct Member {
     std::size_t index = 0;  ///< for who gives and takes it
     std::vector<double> state, parameters;
     double start = 0, duration = 0;
-    /// Null for those of Options; it must live until the member is done.
-    const std::vector<QuickTime>* quick_times = nullptr;
+    /// Null for none; it must live until the member is done.
+    const std::vector<InputTimeScale>* quick_times = nullptr;
 };
+
+inline const std::vector<InputTimeScale>& quick_times_of(const Member& member) {
+    static const std::vector<InputTimeScale> none;
+    return member.quick_times == nullptr ? none : *member.quick_times;
+}
 
 /// Gives members one after the other and takes their results. All threads call `next` and `done` at once.
 struct EnsembleFeed {

@@ -4,15 +4,15 @@
 /// Eight members of an ensemble side by side, from their starts to their ends; a member that has ended makes room
 /// for the next. `integrate` for ensembles (ensemble.hpp) is made of this; call that function.
 ///
-///     PackRun(ensemble, options, source, PackStep<dop853_tableau>(module, dimension, extra)).go(width);
+///     PackDriver(ensemble, options, source, PackExplicitRK<dop853_tableau>(module, dimension, extra)).go(width);
 ///
-/// A step is a class with the members of PackStep (pack_explicit_rk.hpp). One that has `next_length(lane)` chooses
-/// the length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has
-/// the step control of driver.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not
-/// finite, a step that underflows, the budget) is handed back with `again`: the member is then run by itself, and
-/// that run reports what went wrong. So is a lane whose series does not tell how far it holds, and one in which a
-/// long step has passed over something (missed_feature_check.hpp): a run by itself looks within its steps, and
-/// repeats them.
+/// A step is a class with the members of PackExplicitRK (pack_explicit_rk.hpp). One that has `next_length(lane)`
+/// chooses the length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each
+/// lane has the step control of driver.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is
+/// not finite, a step that underflows, the budget) is handed back with `again`: the member is then run by itself,
+/// and that run reports what went wrong. So is a lane whose series does not tell how far it holds, and one in
+/// which a long step has passed over something (missed_feature_check.hpp): a run by itself looks within its steps,
+/// and repeats them.
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ struct MemberSource {
 };
 
 template <class Step>
-class PackRun {
+class PackDriver {
     static constexpr bool has_own_lengths = requires(const Step step) { step.next_length(0); };
     static constexpr bool chooses_by_estimate = !has_own_lengths && !Step::has_fixed_step;
 
@@ -51,7 +51,7 @@ class PackRun {
         bool was_foreseen = true;  ///< the end of the try before
         long count = 0;            ///< the number of fixed steps
         StepSize control{1};
-        Drift drift{0, 0, false};
+        EnergyError energy_error{0, 0, false};
         RunningExtrema along;
         QuickPlaces places = {};
         Rhs rhs = {};  ///< of this member alone, if there are states within steps to look at
@@ -61,7 +61,7 @@ class PackRun {
     };
 
 public:
-    PackRun(const Ensemble& ensemble, const Options& options, const MemberSource& source, Step step)
+    PackDriver(const Ensemble& ensemble, const Options& options, const MemberSource& source, Step step)
         : ensemble_(ensemble),
           options_(options),
           source_(source),
@@ -100,17 +100,17 @@ private:
     /// Finishes the step in some lanes. In the others, which the step cannot leave out, the estimate stays: it
     /// must not depend on whether there is a lane to finish.
     void finish(unsigned finished) {
-        const Lanes estimate = step_.misfit;
+        const Lanes estimate = step_.error_norm;
         step_.finish();
         for (int i = 0; i < lanes; ++i)
-            if ((finished >> i & 1U) == 0) step_.misfit[i] = estimate[i];
+            if ((finished >> i & 1U) == 0) step_.error_norm[i] = estimate[i];
     }
 
     unsigned accepted() const {
         unsigned good = 0;
         const double allowed = Step::has_fixed_step ? std::numeric_limits<double>::max() : options_.tolerance;
         for (int i = 0; i < lanes; ++i)
-            if (is_busy(i) && step_.misfit[i] <= allowed) good |= 1U << i;
+            if (is_busy(i) && step_.error_norm[i] <= allowed) good |= 1U << i;
         return good;
     }
 
@@ -135,12 +135,8 @@ private:
         return true;
     }
 
-    const std::vector<QuickTime>& quick_times(const Member& member) const {
-        return member.quick_times == nullptr ? options_.quick_times : *member.quick_times;
-    }
-
     double within_quick_times(const Lane& lane, double t) const {
-        const std::vector<QuickTime>& quick = quick_times(lane.member);
+        const std::vector<InputTimeScale>& quick = quick_times_of(lane.member);
         if (quick.empty()) return lane.h;
         return std::min(
             lane.h, std::max(latest_end(quick, t) - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
@@ -209,7 +205,7 @@ private:
     }
 
     bool is_suspect(int i, double length) const {
-        return chooses_by_estimate && !(step_.misfit[i] > next_to_none * options_.tolerance) &&
+        return chooses_by_estimate && !(step_.error_norm[i] > next_to_none * options_.tolerance) &&
                places_within(length, lane_[i].member.duration) > 1;
     }
 
@@ -253,14 +249,14 @@ private:
     /// That of the lane's next step, after one of the given length.
     void set_length(int i, double length, bool was_finished, bool is_good) {
         Lane& lane = lane_[i];
-        const double ratio = step_.misfit[i] / options_.tolerance;
+        const double ratio = step_.error_norm[i] / options_.tolerance;
         if constexpr (has_own_lengths) {
             lane.h = is_good ? step_.next_length(i) : step_.shorter_length(length, ratio);
             if (is_good && !lane.was_foreseen) lane.h = std::min(lane.h, 2 * length);  // it is still ahead
             lane.was_foreseen = !was_finished || step_.foresees_end(i);
         } else {
             const double wish =
-                quick_times(lane.member).empty() ? 0 : lane.h;  // a step that had to be short is no forecast
+                quick_times_of(lane.member).empty() ? 0 : lane.h;  // a step that had to be short is no forecast
             if (is_good)
                 lane.h = std::max(lane.control.after_accepted(length, ratio), length < wish ? wish : 0);
             else
@@ -269,8 +265,8 @@ private:
     }
 
     void note_energy(int i) {
-        lane_[i].drift.add({energy_[0][i], energy_[2][i], energy_[4][i]},
-                           extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
+        lane_[i].energy_error.add({energy_[0][i], energy_[2][i], energy_[4][i]},
+                                  extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
     }
 
     /// At the end of a step; where steps are as long as those of a series, also within.
@@ -295,8 +291,8 @@ private:
         std::vector<double> state;
         for (int k = 0; k < dimension_; ++k) state.push_back(step_.state(k, i));
         lane.outcome.time = step_.time[i];
-        lane.outcome.energy_drift = lane.drift.energy();
-        lane.outcome.work_balance = lane.drift.balance();
+        lane.outcome.energy_drift = lane.energy_error.energy();
+        lane.outcome.work_balance = lane.energy_error.balance();
         if (ensemble_.along) lane.outcome.along = lane.along.values();
         source_.done(lane.member, lane.outcome, state);
         refill(i);
@@ -315,7 +311,7 @@ private:
             Lane& lane = lane_[i];
             lane = {.member = *std::move(member),
                     .control = StepSize(std::max(1, order())),
-                    .drift = Drift(0, 0, false),
+                    .energy_error = EnergyError(0, 0, false),
                     .along = {},
                     .rhs = {},
                     .outcome = {}};
@@ -362,7 +358,7 @@ private:
         step_.put(i, member.start, state.data(), rate_.data(), par);
         double energy[4], jacobi = 0;
         table.energy(member.start, state.data(), rate_.data(), par.data(), energy, &jacobi);
-        lane.drift.add({energy[0], energy[2], jacobi}, 0);
+        lane.energy_error.add({energy[0], energy[2], jacobi}, 0);
         return true;
     }
 

@@ -4,18 +4,18 @@
 /// One step of an explicit Runge-Kutta method for eight systems side by side: explicit_rk.hpp with a lane for each
 /// system, which has its own time, step and parameters.
 ///
-///     PackStep<dop853_tableau> step(module, dimension, extra);
+///     PackExplicitRK<dop853_tableau> step(module, dimension, extra);
 ///     step.put(lane, t, state, rate, par);     // for each lane
 ///     step.end = ...;                          // a time in each lane; where it is the lane's own t nothing moves
 ///     step.attempt();
-///     step.misfit[lane];                       // the largest error; infinite if something is not finite
-///     // rates at the ends; step.misfit becomes infinite where they are not finite
+///     step.error_norm[lane];                   // the largest error; infinite if something is not finite
+///     // rates at the ends; step.error_norm becomes infinite where they are not finite
 ///     step.finish();
 ///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///
 /// The arithmetic and its order are those of explicit_rk.hpp, sums of two doubles included. It is compiled for
-/// AVX-512, for AVX2 and for any x86-64, and the version that suits the processor is chosen when a PackStep is
-/// made.
+/// AVX-512, for AVX2 and for any x86-64, and the version that suits the processor is chosen when a PackExplicitRK
+/// is made.
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,13 @@
 #include <vector>
 
 #include "alembert/batch/pack_pieces.hpp"
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 #include "alembert/ode/tableau.hpp"
 
 namespace alembert {
 
 template <const auto& tableau>
-class PackStep {
+class PackExplicitRK {
     static constexpr int stages = tableau.stages;
 
 public:
@@ -43,7 +43,7 @@ public:
         return tableau.stages - (was_finished || last_stage_in_estimate() ? 0 : 1);
     }
 
-    PackStep(const Module& module, int dimension, int extra)
+    PackExplicitRK(const Module& module, int dimension, int extra)
         : pack_(*module.pack()),
           dimension_(dimension),
           controlled_(dimension - extra),
@@ -92,7 +92,7 @@ public:
                      reals(&energy[4]));
     }
 
-    Lanes time, end, misfit;
+    Lanes time, end, error_norm;
 
 private:
     static constexpr bool last_stage_in_estimate() {
@@ -102,9 +102,9 @@ private:
     }
 
     struct Kernel {
-        void (*attempt)(PackStep&);
-        void (*finish)(PackStep&);
-        void (*advance)(PackStep&, unsigned accepted);
+        void (*attempt)(PackExplicitRK&);
+        void (*finish)(PackExplicitRK&);
+        void (*advance)(PackExplicitRK&, unsigned accepted);
     };
 
     static constexpr int arrays = 5;
@@ -148,7 +148,7 @@ private:
         using Wide = typename Pieces::Reals;
         using Bits = typename Pieces::Bits;
         static constexpr int pieces = Pieces::pieces;
-        static Wide* wide(PackStep& s, int which) { return Pieces::in(s.array(which)); }
+        static Wide* wide(PackExplicitRK& s, int which) { return Pieces::in(s.array(which)); }
         static Wide* wide(Lanes& one) { return Pieces::in(&one); }
 
         /// Σ_j row_j k_j at a place, over the weights that are not zero.
@@ -160,7 +160,7 @@ private:
         }
 
         template <int i>
-        [[gnu::always_inline]] static void evaluate(PackStep& s) {
+        [[gnu::always_inline]] static void evaluate(PackExplicitRK& s) {
             const Wide *const k = wide(s, arrays), *const y = wide(s, y_), *const rest = wide(s, rest_);
             Wide* const trial = wide(s, trial_);
             const int places = s.dimension_ * pieces;
@@ -178,11 +178,11 @@ private:
         }
 
         template <int... i>
-        [[gnu::always_inline]] static void evaluate_all(PackStep& s, std::integer_sequence<int, i...>) {
+        [[gnu::always_inline]] static void evaluate_all(PackExplicitRK& s, std::integer_sequence<int, i...>) {
             (evaluate<i + 1>(s), ...);
         }
 
-        [[gnu::always_inline]] static void attempt(PackStep& s) {
+        [[gnu::always_inline]] static void attempt(PackExplicitRK& s) {
             evaluate_all(s, std::make_integer_sequence<int, stages - 1>());
             const Wide *const k = wide(s, arrays), *const start = wide(s, y_), *const rest = wide(s, rest_);
             Wide *const ends = wide(s, next_), *const ends_rest = wide(s, next_rest_);
@@ -198,14 +198,14 @@ private:
                 }
             }
             if constexpr (last_stage_in_estimate()) s.rate_into(stages, s.end, next_);
-            s.misfit = {};
+            s.error_norm = {};
             if constexpr (!has_fixed_step)
                 for (int piece = 0; piece < pieces; ++piece) measure(s, piece);
         }
 
         /// The error is measured component by component as in explicit_rk.hpp; it is infinite if something is not
         /// finite.
-        [[gnu::always_inline]] static void measure(PackStep& s, int piece) {
+        [[gnu::always_inline]] static void measure(PackExplicitRK& s, int piece) {
             const Wide *const k = wide(s, arrays), *const y = wide(s, y_), *const next = wide(s, next_);
             const Wide h = wide(s.end)[piece] - wide(s.time)[piece], none{}, one = none + 1;
             const int places = s.dimension_ * pieces;
@@ -227,23 +227,23 @@ private:
                 largest = square > largest ? square : largest;
                 zero += (square + next[b]) * 0;
             }
-            wide(s.misfit)[piece] = zero == 0 ? largest : none + HUGE_VAL;
+            wide(s.error_norm)[piece] = zero == 0 ? largest : none + HUGE_VAL;
             for (int lane = piece * width; lane < (piece + 1) * width; ++lane)
-                s.misfit[lane] = std::sqrt(s.misfit[lane]);
+                s.error_norm[lane] = std::sqrt(s.error_norm[lane]);
         }
 
-        [[gnu::always_inline]] static void finish(PackStep& s) {
+        [[gnu::always_inline]] static void finish(PackExplicitRK& s) {
             if constexpr (!last_stage_in_estimate()) s.rate_into(stages, s.end, next_);
             const Wide *const rate = wide(s, arrays + stages), *const next = wide(s, next_);
             for (int piece = 0; piece < pieces; ++piece) {
                 Wide zero{};
                 for (int b = piece; b < s.controlled_ * pieces; b += pieces) zero += (rate[b] + next[b]) * 0;
-                Wide& misfit = wide(s.misfit)[piece];
-                misfit = zero == 0 ? misfit : Wide{} + HUGE_VAL;
+                Wide& error_norm = wide(s.error_norm)[piece];
+                error_norm = zero == 0 ? error_norm : Wide{} + HUGE_VAL;
             }
         }
 
-        [[gnu::always_inline]] static void advance(PackStep& s, unsigned accepted) {
+        [[gnu::always_inline]] static void advance(PackExplicitRK& s, unsigned accepted) {
             Wide *const y = wide(s, y_), *const rest = wide(s, rest_), *const first = wide(s, arrays);
             const Wide *const next = wide(s, next_), *const next_rest = wide(s, next_rest_),
                               *const last = wide(s, arrays + stages);
@@ -262,32 +262,32 @@ private:
         }
     };
 
-    static void attempt_any(PackStep& step) {
+    static void attempt_any(PackExplicitRK& step) {
         Work<2>::attempt(step);
     }
-    static void finish_any(PackStep& step) {
+    static void finish_any(PackExplicitRK& step) {
         Work<2>::finish(step);
     }
-    static void advance_any(PackStep& step, unsigned accepted) {
+    static void advance_any(PackExplicitRK& step, unsigned accepted) {
         Work<2>::advance(step, accepted);
     }
 #if defined(__x86_64__)
-    ALEMBERT_WIDE static void attempt_256(PackStep& step) {
+    ALEMBERT_WIDE static void attempt_256(PackExplicitRK& step) {
         Work<4>::attempt(step);
     }
-    ALEMBERT_WIDE static void finish_256(PackStep& step) {
+    ALEMBERT_WIDE static void finish_256(PackExplicitRK& step) {
         Work<4>::finish(step);
     }
-    ALEMBERT_WIDE static void advance_256(PackStep& step, unsigned accepted) {
+    ALEMBERT_WIDE static void advance_256(PackExplicitRK& step, unsigned accepted) {
         Work<4>::advance(step, accepted);
     }
-    ALEMBERT_WIDEST static void attempt_512(PackStep& step) {
+    ALEMBERT_WIDEST static void attempt_512(PackExplicitRK& step) {
         Work<8>::attempt(step);
     }
-    ALEMBERT_WIDEST static void finish_512(PackStep& step) {
+    ALEMBERT_WIDEST static void finish_512(PackExplicitRK& step) {
         Work<8>::finish(step);
     }
-    ALEMBERT_WIDEST static void advance_512(PackStep& step, unsigned accepted) {
+    ALEMBERT_WIDEST static void advance_512(PackExplicitRK& step, unsigned accepted) {
         Work<8>::advance(step, accepted);
     }
 #endif

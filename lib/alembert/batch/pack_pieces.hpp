@@ -4,8 +4,7 @@
 /// Packs (packs.hpp) as vectors of so many numbers as a register holds.
 ///
 ///     using Pieces = PackPieces<4>;
-///     Pieces::Reals* const y = Pieces::in(list);           // a pack is `Pieces::pieces` of them, one after the
-///     other
+///     Pieces::Reals* const y = Pieces::in(list);           // a pack is `Pieces::pieces` of them in a row
 
 #include "alembert/batch/packs.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "alembert/batch/pack_pieces.hpp"
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 
 namespace alembert {
 
@@ -24,7 +24,7 @@ struct Expansion {
     using Pieces = PackPieces<width>;
     using Wide = typename Pieces::Reals;
     static constexpr int pieces = Pieces::pieces;
-    const SeriesPacks& packs;
+    const PackSeries& packs;
     int order;
     Lanes *out, *fixed, *given[2], *rows;
 
@@ -64,8 +64,8 @@ struct Expansion {
         for (std::size_t l = 0; l < packs.products.size(); ++l) {
             const auto [left, right] = packs.products[l];
             for (int piece = 0; piece < pieces; ++piece) {
-                const Wide *const a = Pieces::in(rows + SeriesPacks::place_of_factor(left)) + piece,
-                                  *const b = Pieces::in(rows + SeriesPacks::place_of_factor(right)) + piece;
+                const Wide *const a = Pieces::in(rows + PackSeries::place_of_factor(left)) + piece,
+                                  *const b = Pieces::in(rows + PackSeries::place_of_factor(right)) + piece;
                 const std::size_t at = l * pieces + static_cast<std::size_t>(piece);
                 if constexpr (k % 2 == 1)
                     convolve<k>(a, b, now[at], next[at]);
@@ -121,12 +121,12 @@ std::size_t count(int number) {
 
 }  // namespace
 
-std::size_t SeriesPacks::workspace() const {
+std::size_t PackSeries::workspace() const {
     return count(fixed) + 2 * count(places.size()) + count(place_of_factor(factors));
 }
 
-void SeriesPacks::expand(const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
-                         Lanes* work) const {
+void PackSeries::expand(const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
+                        Lanes* work) const {
     const GivenPlaces& at = places;
     Lanes *const even = work + fixed, *const odd = even + at.size(), *const rows = odd + at.size();
     first(reals(&t), reals(state), reals(par), reals(work), reals(odd));

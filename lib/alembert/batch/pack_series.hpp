@@ -19,7 +19,7 @@
 
 namespace alembert {
 
-struct SeriesPacks {
+struct PackSeries {
     void (*prepare)(double* par) = nullptr;  ///< of one system: makes its constants behind its parameters
     void (*first)(const double* t, const double* state, const double* par, double* fixed, double* given) = nullptr;
     void (*fix)(double* fixed) = nullptr;

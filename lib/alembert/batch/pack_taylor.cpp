@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "alembert/batch/pack_pieces.hpp"
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 #include "alembert/ode/taylor.hpp"
 
 namespace alembert {
@@ -75,7 +75,7 @@ struct PackTaylor::Work {
             raise(largest, error);
             zero += (error + next) * 0;
         }
-        wide(s.misfit)[piece] = zero == 0 ? largest : none + HUGE_VAL;
+        wide(s.error_norm)[piece] = zero == 0 ? largest : none + HUGE_VAL;
     }
 
     /// Whether the rates at the ends are finite and those of the polynomials, as Taylor::foresees_end.
@@ -100,8 +100,8 @@ struct PackTaylor::Work {
         Wide size = one;
         raise(size, wide(s.time)[piece]);
         missed &= h >= shortest_tried * size;
-        Wide& misfit = wide(s.misfit)[piece];
-        misfit = (zero == 0) & ~missed ? misfit : none + HUGE_VAL;
+        Wide& error_norm = wide(s.error_norm)[piece];
+        error_norm = (zero == 0) & ~missed ? error_norm : none + HUGE_VAL;
         for (int lane = 0; lane < width; ++lane)
             s.unforeseen_ |= missed[lane] != 0 ? 1U << (piece * width + lane) : 0U;
     }
@@ -154,7 +154,7 @@ struct PackTaylor::Compiled {
     ALEMBERT_WIDEST static void advance_512(PackTaylor& s, unsigned accepted) { Work<8>::advance(s, accepted, 0); }
 };
 
-PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dimension, int extra, double tolerance)
+PackTaylor::PackTaylor(const Module& module, const PackSeries& series, int dimension, int extra, double tolerance)
     : pack_(*module.pack()),
       series_(series),
       dimension_(dimension),

@@ -8,9 +8,9 @@
 ///     step.put(lane, t, state, rate, par);     // for each lane; its first step has no length
 ///     step.end = ...;                          // a time in each lane
 ///     step.attempt();
-///     step.misfit[lane];                       // the last term; infinite if something is not finite
+///     step.error_norm[lane];                   // the last term; infinite if something is not finite
 ///     step.finish();                           // the series at the ends
-///     step.misfit[lane];                       // infinite where the rate at the end is not the foreseen one
+///     step.error_norm[lane];                   // infinite where the rate at the end is not the foreseen one
 ///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///     step.next_length(lane);                  // by the series there
 ///
@@ -30,7 +30,7 @@ public:
     static constexpr bool has_fixed_step = false;
     static constexpr int most_evaluations = 2;
 
-    PackTaylor(const Module& module, const SeriesPacks& series, int dimension, int extra, double tolerance);
+    PackTaylor(const Module& module, const PackSeries& series, int dimension, int extra, double tolerance);
 
     void put(int lane, double t, const double* state, const double* rate, const std::vector<double>& par);
     bool is_new(int lane) const { return (new_ >> lane & 1U) != 0; }
@@ -53,7 +53,7 @@ public:
     /// The state at h after the start of the lane's last accepted step.
     void within(int lane, double h, std::vector<double>& state) const;
 
-    Lanes time{}, end{}, misfit{};
+    Lanes time{}, end{}, error_norm{};
 
 private:
     template <int width>
@@ -66,7 +66,7 @@ private:
     double most_of(int first, int end, double ratio, int lane) const;
 
     const alembert_pack_table& pack_;
-    const SeriesPacks& series_;
+    const PackSeries& series_;
     int dimension_, controlled_, order_, parameters_;
     bool has_widest_;
     double most_missed_;

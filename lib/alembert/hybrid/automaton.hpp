@@ -13,10 +13,10 @@
 ///     };
 ///     run_modes(bouncing, options, piece);
 ///
-/// Such are contacts and impulsive events (hybrid_motion.cpp), dry friction and other switches (filippov.cpp), the
-/// change from a method to another (integrate.cpp), and angles that give way to a quaternion near gimbal lock
-/// (generator/simulate/charts.cpp). They nest: within one contact mode friction sticks and slides, and within one
-/// piece of that the method changes.
+/// Such are contacts and impulsive events (hybrid_motion.cpp), dry friction and other switches
+/// (filippov_system.cpp), the change from a method to another (integrate.cpp), and angles that give way to a
+/// quaternion near gimbal lock (generator/simulate/charts.cpp). They nest: within one contact mode friction sticks
+/// and slides, and within one piece of that the method changes.
 ///
 /// What is the same for all of them is here alone: the rest of the run's budget and time, the rows, which all fall
 /// on one grid, what a disturbed run adds after a jump, which guards have ended a piece and whether an event of

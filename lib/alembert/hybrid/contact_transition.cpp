@@ -8,8 +8,8 @@
 #include <map>
 
 #include "alembert/base/dense.hpp"
-#include "alembert/hybrid/impact.hpp"
-#include "alembert/hybrid/impact_dispatch.hpp"
+#include "alembert/hybrid/frictional_impact.hpp"
+#include "alembert/hybrid/frictionless_impact.hpp"
 
 namespace alembert {
 
@@ -30,7 +30,7 @@ public:
         n_ = here_.f.size();
     }
 
-    Settled go() {
+    ContactTransition go() {
         place();
         find_near();
         if (!strike_all()) return std::move(result_);
@@ -79,7 +79,7 @@ private:
     }
 
     /// Sets new rates and reports the work of generalized impulses and of impulses Λ along rows: Σ Λ·(mean of
-    /// value' − drift).
+    /// value' − offset).
     void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse,
                  const VectorXd& generalized) {
         const VectorXd mean = (u() + after) / 2;
@@ -102,14 +102,14 @@ private:
             if (contains(near_, rough.contact)) return strike_with_friction(is_kicked);
         const VectorXd kick = is_kicked ? at_.impulse : VectorXd::Zero(n_);
         const Situation::Rows rows = selected(here_.contacts, near_);
-        VectorXd restitution(rows.drift.size());
+        VectorXd restitution(rows.offset.size());
         for (std::size_t i = 0; i < near_.size(); ++i)
             restitution[static_cast<Index>(i)] = contacts_.restitution[near_[i]];
-        const ImpactResult hit = strike(here_.M, u(), kick, {here_.bilateral.rows, here_.bilateral.drift},
-                                        {rows.rows, rows.drift}, restitution);
+        const FrictionlessImpact hit = strike(here_.M, u(), kick, {here_.bilateral.rows, here_.bilateral.offset},
+                                              {rows.rows, rows.offset}, restitution);
         if (!hit) return is_kicked ? fail_kick(hit.failure) : fail(near_, hit.failure);
         result_.struck = hit.after;
-        const VectorXd before = rows.rows * u() + rows.drift, after = rows.rows * hit.after + rows.drift;
+        const VectorXd before = rows.rows * u() + rows.offset, after = rows.rows * hit.after + rows.offset;
         for (std::size_t i = 0; i < near_.size(); ++i) {
             const auto at = static_cast<Index>(i);
             if (hit.contact[at] <= 0) continue;
@@ -120,7 +120,7 @@ private:
                  .time = at_.t,
                  .speed_before = before[at],
                  .speed_after = after[at],
-                 .energy_loss = hit.contact[at] * (rows.drift[at] - (before[at] + after[at]) / 2),
+                 .energy_loss = hit.contact[at] * (rows.offset[at] - (before[at] + after[at]) / 2),
                  .impulse = hit.contact[at]});
         }
         VectorXd impulse(hit.bilateral.size() + hit.contact.size());
@@ -130,7 +130,7 @@ private:
     }
 
     bool strike_with_friction(bool is_kicked) {
-        const RoughStrike hit =
+        const FrictionalImpact hit =
             strike_rough_contacts(here_, u(), near_, contacts_.restitution, is_kicked ? at_.impulse : VectorXd());
         if (!hit) return fail(near_, hit.failure);
         result_.struck = hit.after;
@@ -155,7 +155,7 @@ private:
         for (const int k : bounced_) {
             if (!parts(k)) continue;
             const std::vector<int> resting = candidates();
-            const Lasting motion = lasting_contacts(here_, resting);
+            const LastingContacts motion = lasting_contacts(here_, resting);
             if (!motion) return false;
             const double fall =
                 here_.contacts.acceleration[k] - here_.contacts.rows.row(k).dot(motion.acceleration);
@@ -163,15 +163,15 @@ private:
             if (!(fall > 0)) continue;
             const double flight = 2 * speed / fall, all = e < 1 ? flight / (1 - e) : HUGE_VAL;
             const Situation::Rows rows = stacked(here_.bilateral, selected(here_.contacts, joined(resting, k)));
-            const ImpactResult still = strike(here_.M, u(), VectorXd::Zero(n_), {rows.rows, rows.drift},
-                                              {MatrixXd(0, n_), VectorXd()}, VectorXd());
+            const FrictionlessImpact still = strike(here_.M, u(), VectorXd::Zero(n_), {rows.rows, rows.offset},
+                                                    {MatrixXd(0, n_), VectorXd()}, VectorXd());
             if (!still) continue;
             const VectorXd displaced = (u() - still.after) * all;
             const bool is_low =
                 (displaced.cwiseAbs().array() <= at_.tolerance * q().cwiseAbs().cwiseMax(1.0).array()).all();
             if (!is_low && flight > clock_grain * std::abs(at_.t)) continue;
             const double last = at_.t + (e < 1 ? all : 0),
-                         loss = still.bilateral.tail(1)[0] * (here_.contacts.drift[k] - speed / 2);
+                         loss = still.bilateral.tail(1)[0] * (here_.contacts.offset[k] - speed / 2);
             rests_[k] = {.kind = ContactEvent::Kind::rest,
                          .contact = k,
                          .time = last,
@@ -198,7 +198,7 @@ private:
             const int k = *at_.released;
             std::vector<int> others = all;
             others.erase(std::find(others.begin(), others.end(), k));
-            if (const Lasting without = lasting_contacts(here_, others)) {
+            if (const LastingContacts without = lasting_contacts(here_, others)) {
                 const double opens = opening(here_, without, k);
                 const double small =
                     at_.tolerance * acceleration_scale(k, without.acceleration) + uncertainty(others, k, opens);
@@ -210,7 +210,7 @@ private:
                 }
             }
         }
-        const Lasting lasting = lasting_contacts(here_, all);
+        const LastingContacts lasting = lasting_contacts(here_, all);
         if (lasting)
             take(lasting);
         else if (count_ > 0)
@@ -218,7 +218,7 @@ private:
     }
 
     /// gap'' of contact k without its force.
-    static double opening(const Situation& here, const Lasting& without, int k) {
+    static double opening(const Situation& here, const LastingContacts& without, int k) {
         return here.contacts.rows.row(k).dot(without.acceleration) - here.contacts.acceleration[k];
     }
 
@@ -229,7 +229,7 @@ private:
         constexpr double instant = 1e-12;
         const auto change = [&](double t, const std::vector<double>& state) {
             const Situation beside = contacts_.situation(t, state.data());
-            const Lasting without = lasting_contacts(beside, others);
+            const LastingContacts without = lasting_contacts(beside, others);
             return without ? std::abs(opening(beside, without, k) - opens) : 0;
         };
         double sum = change(at_.t + instant * std::max(1.0, std::abs(at_.t)), state_);
@@ -243,13 +243,13 @@ private:
 
     /// The size that gap'' has with or without the contact forces; its errors are measured relative to it.
     double acceleration_scale(int k, const VectorXd& acceleration) const {
-        const Lasting free = lasting_contacts(here_, {});
+        const LastingContacts free = lasting_contacts(here_, {});
         VectorXd size = acceleration.cwiseAbs();
         if (free) size = size.cwiseMax(free.acceleration.cwiseAbs());
         return here_.contacts.rows.row(k).cwiseAbs().dot(size) + std::abs(here_.contacts.acceleration[k]);
     }
 
-    void take(const Lasting& lasting) {
+    void take(const LastingContacts& lasting) {
         result_.closed = lasting.closed;
         result_.resting = lasting.resting;
         result_.acceleration = lasting.acceleration;
@@ -291,12 +291,12 @@ private:
     Situation here_;
     std::vector<int> near_, bounced_;
     std::map<int, ContactEvent> rests_;
-    Settled result_;
+    ContactTransition result_;
 };
 
 }  // namespace
 
-Settled settle(const Contacts& contacts, const PhaseEnd& instant, std::vector<double>& state) {
+ContactTransition settle(const Contacts& contacts, const PhaseEnd& instant, std::vector<double>& state) {
     return Settling(contacts, instant, state).go();
 }
 

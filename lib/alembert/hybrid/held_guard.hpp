@@ -4,9 +4,9 @@
 /// A guard whose value is zero, or nearly so, where a mode begins. Rounding must not decide at once that it is
 /// passed.
 ///
-///     const HeldGuard opening{.until = t + 1e-9};      // the gap counts as open until it has risen above
-///     rounding const HeldGuard resting{.bound = 1e-12};         // the zero counts where the value has fallen to
-///     −1e-12 const Events events = with_guards_held(events, list, {opening, resting});
+///     const HeldGuard opening{.until = t + 1e-9};      // open until the gap has risen above rounding
+///     const HeldGuard resting{.bound = 1e-12};         // zero where the value has fallen to −1e-12
+///     with_guards_held(events, list, {opening, resting})
 
 #include <algorithm>
 #include <cmath>

@@ -45,7 +45,7 @@ public:
           in_phases_(count_ > 0 || contacts.kicks.any()),
           now_{.t = options.start, .state = std::move(initial)} {}
 
-    PhasedMotion go() {
+    HybridMotion go() {
         result_.statistics.method = name(options_.method);
         if (count_ > 0) settle_into({}, {}, {});
         if (!result_.failure) run_modes(*this, options_);
@@ -209,15 +209,15 @@ private:
         const std::vector<double> integrated = now_.state;
         std::vector<double> rates = before;
         set_by(halt.kicks, before, rates);
-        Settled settled = settle(contacts_,
-                                 {.t = now_.t,
-                                  .tolerance = tolerance_,
-                                  .closed = closed_,
-                                  .resting = resting_,
-                                  .touched = touched,
-                                  .released = released,
-                                  .impulse = impulse_of(halt.kicks, before)},
-                                 rates);
+        ContactTransition settled = settle(contacts_,
+                                           {.t = now_.t,
+                                            .tolerance = tolerance_,
+                                            .closed = closed_,
+                                            .resting = resting_,
+                                            .touched = touched,
+                                            .released = released,
+                                            .impulse = impulse_of(halt.kicks, before)},
+                                           rates);
         now_.state = mode_ ? as_integrated(contacts_.kicks, now_.t, rates) : rates;
         for (const ContactEvent& event : settled.events) {
             const auto struck = [&](const ContactEvent& e) {
@@ -355,12 +355,12 @@ private:
     long kicks_ = 0, jumps_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;
-    PhasedMotion result_;
+    HybridMotion result_;
 };
 
 }  // namespace
 
-PhasedMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
+HybridMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
                     const Options& options) {
     return Following(contacts, modes, std::move(initial), options).go();
 }

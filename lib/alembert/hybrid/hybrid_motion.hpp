@@ -4,7 +4,7 @@
 /// A motion with unilateral contacts and kicks: smooth phases, joined by impacts, releases, contacts that come to
 /// rest, and impulses. The phases are modes of the automaton (automaton.hpp).
 ///
-///     const PhasedMotion motion = follow(contacts, mode_of, {1.0, 0.0}, {.duration = 3});
+///     const HybridMotion motion = follow(contacts, mode_of, {1.0, 0.0}, {.duration = 3});
 ///     motion.contacts[0].time;                 // the first impact
 ///     motion.phases.back().closed;             // {0}: the ball lies
 ///
@@ -23,7 +23,7 @@
 /// failure.
 
 #include "alembert/hybrid/contact_transition.hpp"
-#include "alembert/hybrid/filippov.hpp"
+#include "alembert/hybrid/filippov_system.hpp"
 #include "alembert/ode/integrate.hpp"
 
 namespace alembert {
@@ -45,7 +45,7 @@ struct Phase {
     Trajectory motion = {};  ///< with the scene's events only
 };
 
-struct PhasedMotion {
+struct HybridMotion {
     std::vector<Phase> phases = {};  ///< at least one
     std::vector<ContactEvent> contacts = {};
     std::vector<EventRecord> events = {};
@@ -61,7 +61,7 @@ struct PhasedMotion {
 /// mode {}. The rows of all phases fall on one grid; each phase also has a row at its first and at its last
 /// instant. If something fails during the run, `failure` says what, and the phases until then are kept. The
 /// message of FailureKind::no_contact_mode names the contacts, that of endless_kicks the event.
-PhasedMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
+HybridMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
                     const Options& options);
 
 }  // namespace alembert

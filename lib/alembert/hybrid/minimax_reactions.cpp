@@ -77,10 +77,11 @@ VectorXd least_level(const std::vector<Part>& parts, Eigen::Index free) {
 
 }  // namespace
 
-VectorXd even_shares(const VectorXd& given, const MatrixXd& free, const std::vector<ShareOfContact>& contacts) {
+VectorXd minimax_reactions(const VectorXd& given, const MatrixXd& free,
+                           const std::vector<ReactionBound>& contacts) {
     if (free.cols() == 0) return given;
     std::vector<Part> parts;
-    for (const ShareOfContact& contact : contacts) {
+    for (const ReactionBound& contact : contacts) {
         const MatrixXd N = free.middleRows(contact.first, contact.size) / contact.bound;
         if (!(N.cwiseAbs().maxCoeff() * contact.bound > not_moved * free.cwiseAbs().maxCoeff())) continue;
         parts.push_back({given.segment(contact.first, contact.size) / contact.bound, N});

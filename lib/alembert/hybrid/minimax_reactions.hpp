@@ -13,14 +13,14 @@
 
 namespace alembert {
 
-struct ShareOfContact {
+struct ReactionBound {
     Eigen::Index first, size;  ///< its components in α: one, or two in a plane
     double bound;              ///< r_c > 0
 };
 
 /// α; the given one if nothing is free. given: n; free: n×d, with independent columns. A contact that no column
 /// changes does not count.
-Eigen::VectorXd even_shares(const Eigen::VectorXd& given, const Eigen::MatrixXd& free,
-                            const std::vector<ShareOfContact>& contacts);
+Eigen::VectorXd minimax_reactions(const Eigen::VectorXd& given, const Eigen::MatrixXd& free,
+                                  const std::vector<ReactionBound>& contacts);
 
 }  // namespace alembert

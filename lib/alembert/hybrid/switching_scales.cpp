@@ -21,14 +21,14 @@ constexpr int most_rounds_at_rest = 8;
 constexpr double small_swing = 1e-6;
 
 /// |g| of a function, or of both of a pair.
-double length(const SlidingMode& sides, const std::vector<double>& g, int k) {
+double length(const FilippovMode& sides, const std::vector<double>& g, int k) {
     return sides.is_pair(k) ? std::hypot(g[k], g[k + 1]) : std::abs(g[k]);
 }
 
 /// Σ |∂g/∂y_i| size(y_i): how far g, or what `length` makes of the numbers of FilippovSystem::values, is off where
 /// the components of the state are off by these sizes.
 template <typename Length, typename Size>
-double moved(const FilippovSystem& system, const SlidingMode& sides, double t, std::vector<double> y,
+double moved(const FilippovSystem& system, const FilippovMode& sides, double t, std::vector<double> y,
              const Length& length, const Size& size) {
     const std::vector<double> none(y.size()), sigma = system.sigma(sides);
     std::vector<double> here(system.numbers()), there = here;
@@ -49,7 +49,7 @@ double moved(const FilippovSystem& system, const SlidingMode& sides, double t, s
 
 /// The same for |g| of a function, or of both of a pair.
 template <typename Size>
-double moved(const SwitchMoment& at, int k, const Size& size) {
+double moved(const SwitchingScales& at, int k, const Size& size) {
     return moved(
         at.system, at.sides, at.t, at.state,
         [&](const std::vector<double>& off) { return length(at.sides, off, k); }, size);
@@ -57,18 +57,18 @@ double moved(const SwitchMoment& at, int k, const Size& size) {
 
 }  // namespace
 
-double SwitchMoment::value(int k) const {
-    SwitchSides here(system, sides, dimension());
+double SwitchingScales::value(int k) const {
+    SlidingField here(system, sides, dimension());
     here.evaluate(t, state.data());
     return here.value(k);
 }
 
-double SwitchMoment::still(int k) const {
+double SwitchingScales::still(int k) const {
     return 4 * tolerance::epsilon * length(sides, sizes, k) +
            moved(*this, k, [](double y) { return 4 * tolerance::epsilon * std::abs(y); });
 }
 
-double SwitchMoment::stopped(int k) const {
+double SwitchingScales::stopped(int k) const {
     const double least = std::max(options.tolerance, 1e-13);
     double largest = sizes[k];
     for (int other = 0; sides.is_pair(k) && sides.is_pair(other); ++other)
@@ -77,11 +77,11 @@ double SwitchMoment::stopped(int k) const {
            still(k);
 }
 
-double SwitchMoment::speed(int pair) const {
+double SwitchingScales::speed(int pair) const {
     double largest = system.speed;
     for (int k = 0; sides.is_pair(k); ++k) largest = std::max(largest, sizes[k]);
     if (system.speed > 0) return largest;
-    SlidingMode held = sides;
+    FilippovMode held = sides;
     held[pair] = held[pair + 1] = 0;
     const std::vector<double> sigma = system.sigma(held);  // α = 0
     std::vector<double> rate(state.size()), g(system.numbers());
@@ -91,8 +91,8 @@ double SwitchMoment::speed(int pair) const {
     return std::max(largest, little * options.duration * std::hypot(g[slope], g[slope + 1]));
 }
 
-double SwitchMoment::uncertain_normal(const SwitchSides& now, int k) const {
-    SwitchSides other(system, sides, dimension());
+double SwitchingScales::uncertain_normal(const SlidingField& now, int k) const {
+    SlidingField other(system, sides, dimension());
     std::vector<double> y = state;
     const auto change = [&](double time) {
         other.evaluate(time, y.data());
@@ -111,20 +111,20 @@ double SwitchMoment::uncertain_normal(const SwitchSides& now, int k) const {
     return sum + known_time * longest / (later - t) * change(later);
 }
 
-bool SwitchMoment::brakes(int k) const {
+bool SwitchingScales::brakes(int k) const {
     double slopes[2];
     for (const int side : {0, 1}) {
-        SlidingMode other = sides;
+        FilippovMode other = sides;
         other[k] = 2 * side - 1;
-        SwitchSides at(system, other, dimension());
+        SlidingField at(system, other, dimension());
         at.evaluate(t, state.data());
         slopes[side] = at.slope(k);
     }
     return std::abs(slopes[1] - slopes[0]) > different * (std::abs(slopes[0]) + std::abs(slopes[1]));
 }
 
-std::vector<int> ChatterWatch::at_rest(const SwitchMoment& moment, const std::vector<int>& open, double since) {
-    SwitchSides here(moment.system, moment.sides, moment.dimension());
+std::vector<int> ChatterWatch::at_rest(const SwitchingScales& moment, const std::vector<int>& open, double since) {
+    SlidingField here(moment.system, moment.sides, moment.dimension());
     here.evaluate(moment.t, moment.state.data());
     std::vector<int> found;
     for (int k = 0; k < moment.system.count(); ++k) {
@@ -143,7 +143,7 @@ std::vector<int> ChatterWatch::at_rest(const SwitchMoment& moment, const std::ve
     return found;
 }
 
-bool stands_still(const FilippovSystem& system, const SlidingMode& sides, int k, double t,
+bool stands_still(const FilippovSystem& system, const FilippovMode& sides, int k, double t,
                   const std::vector<double>& state) {
     if (!system.is_positional(k)) return false;
     const std::size_t rate = sides.size() + static_cast<std::size_t>(k);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What counts as small at one moment of a motion with held signs (filippov.hpp), in the units of the motion
-/// itself.
+/// What counts as small at one moment of a motion with held signs (filippov_system.hpp), in the units of the
+/// motion itself.
 ///
-///     const SwitchMoment moment{system, sides, t, state, options, sizes};
+///     const SwitchingScales moment{system, sides, t, state, options, sizes};
 ///     moment.stopped(k);     // a sliding velocity below this is none
 ///
 ///     ChatterWatch swings(count);
@@ -12,13 +12,13 @@
 
 #include <vector>
 
-#include "alembert/hybrid/sliding_mode.hpp"
+#include "alembert/hybrid/sliding_field.hpp"
 
 namespace alembert {
 
-struct SwitchMoment {
+struct SwitchingScales {
     const FilippovSystem& system;
-    const SlidingMode& sides;
+    const FilippovMode& sides;
     double t;
     const std::vector<double>& state;
     const Options& options;
@@ -37,7 +37,7 @@ struct SwitchMoment {
     double speed(int pair) const;
     /// How far the k-th normal force is uncertain because the state and the time are. `now` has been evaluated
     /// here, with its bounds.
-    double uncertain_normal(const SwitchSides& now, int k) const;
+    double uncertain_normal(const SlidingField& now, int k) const;
     /// Whether the sign of a function changes its own rate, as that of a sliding velocity does.
     bool brakes(int k) const;
 };
@@ -49,7 +49,7 @@ public:
 
     /// Functions other than the `open` ones that the tolerance does not tell from zero, or that do not come nearer
     /// to it from one change to the next, and that do not move either. `since`: the time since the last change.
-    std::vector<int> at_rest(const SwitchMoment& moment, const std::vector<int>& open, double since);
+    std::vector<int> at_rest(const SwitchingScales& moment, const std::vector<int>& open, double since);
 
 private:
     struct Swing {
@@ -61,7 +61,7 @@ private:
 
 /// Whether a function of positions that is zero stands still: its ġ is zero but for rounding, and g̈ decides where
 /// it goes.
-bool stands_still(const FilippovSystem& system, const SlidingMode& sides, int k, double t,
+bool stands_still(const FilippovSystem& system, const FilippovMode& sides, int k, double t,
                   const std::vector<double>& state);
 
 }  // namespace alembert

@@ -21,7 +21,7 @@
 #include "alembert/base/error.hpp"
 #include "alembert/base/interrupt.hpp"
 #include "alembert/native/program_path.hpp"
-#include "alembert/native/temporary_files.hpp"
+#include "alembert/native/temporary_file.hpp"
 
 namespace alembert {
 namespace {
@@ -106,7 +106,7 @@ bool is_program(const std::filesystem::path& path) {
 
 }  // namespace
 
-Finished run(const std::vector<std::string>& argv) {
+Process run(const std::vector<std::string>& argv) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw CompileError(std::string("cannot make a pipe to a child process: ") + std::strerror(errno));

@@ -3,7 +3,7 @@
 
 /// Runs another program without a shell, so that no character of an argument has a special meaning.
 ///
-///     const Finished gcc = run({"/usr/bin/g++", "--version"});
+///     const Process gcc = run({"/usr/bin/g++", "--version"});
 ///     if (gcc.status != 0) … gcc.output …
 ///
 /// The child reads from /dev/null, speaks untranslated English (LC_ALL=C), and what it writes to either stream
@@ -15,13 +15,13 @@
 
 namespace alembert {
 
-struct Finished {
+struct Process {
     int status = 0;      ///< exit status; 128 + signal if a signal ended it
     std::string output;  ///< standard output and error in the order in which they were written
 };
 
 /// Runs argv[0], an absolute path, and waits for its end.
-Finished run(const std::vector<std::string>& argv);
+Process run(const std::vector<std::string>& argv);
 
 /// The executable file that a shell would start for `program`: itself if it contains a slash, else the first in
 /// $PATH. Empty if there is none.

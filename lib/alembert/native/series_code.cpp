@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 #include <immintrin.h>
 #endif
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 
 // Sines and cosines of four angles at once, as in templates/sines.cpp.mustache, which says more:
 //

@@ -15,7 +15,7 @@
 /// and §III.7; Milne 1926.
 
 #include "alembert/ode/differences.hpp"
-#include "alembert/ode/formula.hpp"
+#include "alembert/ode/formula_stepper.hpp"
 
 namespace alembert {
 

@@ -21,7 +21,7 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/ode/differences.hpp"
-#include "alembert/ode/newton.hpp"
+#include "alembert/ode/newton_iteration.hpp"
 
 namespace alembert {
 
@@ -143,7 +143,7 @@ private:
             factored_for_ = c;
         }
         std::fill(d_.begin(), d_.end(), 0.0);
-        Contraction contraction(enough_, most_rounds);
+        NewtonIteration iteration(enough_, most_rounds);
         for (;;) {
             for (std::size_t i = 0; i < size_; ++i) state_[i] = ends.y[i] + (predicted_[i] + d_[i] + ends.rest[i]);
             ends.evaluate(ends.t + h, state_.data(), rate_.data());
@@ -151,8 +151,8 @@ private:
                 side_[static_cast<Eigen::Index>(i)] = c * rate_[i] - known_[i] - d_[i];
             lu_.solve(side_, solution_);
             for (std::size_t i = 0; i < size_; ++i) d_[i] += solution_[static_cast<Eigen::Index>(i)];
-            const auto verdict = contraction.after(ends.norm(solution_.data()));
-            if (verdict != Contraction::more) return verdict == Contraction::done;
+            const auto verdict = iteration.after(ends.norm(solution_.data()));
+            if (verdict != NewtonIteration::more) return verdict == NewtonIteration::done;
         }
     }
 

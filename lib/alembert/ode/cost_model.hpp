@@ -4,9 +4,9 @@
 /// What steps cost, as it is predicted from counts, so that two methods can be compared during a run and the
 /// comparison is the same in every run.
 ///
-///     Pace pace;
-///     pace.add(t, evaluations * effort_of_evaluation(rhs, method));    // after each accepted step
-///     pace.effort_per_time();                                          // over the last steps; 0 at first
+///     CostModel cost;
+///     cost.add(t, evaluations * effort_of_evaluation(rhs, method));    // after each accepted step
+///     cost.effort_per_time();                                          // over the last steps; 0 at first
 ///
 /// Efforts are nanoseconds of a processor with AVX-512 (Zen 5), on which they were fitted (by `bench`, on systems
 /// of 2 to 50 components): a right-hand side takes Rhs::effort; an explicit method adds 13 + 0.15 n for each
@@ -18,8 +18,8 @@
 #include <array>
 #include <cstddef>
 
-#include "alembert/native/cpu_features.hpp"
-#include "alembert/ode/methods.hpp"
+#include "alembert/native/registers.hpp"
+#include "alembert/ode/method.hpp"
 #include "alembert/ode/rhs.hpp"
 
 namespace alembert {
@@ -41,7 +41,7 @@ inline double effort_of_evaluation(const Rhs& rhs, bool implicit) {
 /// The evaluations of a usual step of radau.
 inline constexpr double evaluations_of_radau = 20;
 
-class Pace {
+class CostModel {
 public:
     static constexpr std::size_t window = 16;  ///< steps
 

@@ -4,8 +4,8 @@
 /// One integration by steps of one kind, from options that have been checked to a trajectory. `integrate` is made
 /// of this; call that function.
 ///
-///     Trajectory motion = Driver<Step<dop853_tableau>>(system, initial, options, events, piece).go();
-///     Trajectory motion = Driver<Stepper<Gauss>>(system, initial, options, events, piece).go();
+///     Trajectory motion = Driver<ExplicitRK<dop853_tableau>>(system, initial, options, events, piece).go();
+///     Trajectory motion = Driver<FormulaStepper<Gauss>>(system, initial, options, events, piece).go();
 ///
 /// stepper.hpp says what a step must have, and what it may have besides.
 ///
@@ -29,11 +29,11 @@
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/missed_feature_check.hpp"
 #include "alembert/ode/recorder.hpp"
-#include "alembert/ode/rounding.hpp"
+#include "alembert/ode/rounding_watch.hpp"
 #include "alembert/ode/step_collapse.hpp"
 #include "alembert/ode/step_size.hpp"
 #include "alembert/ode/stepper.hpp"
-#include "alembert/ode/stiffness.hpp"
+#include "alembert/ode/stiffness_watch.hpp"
 #include "alembert/ode/taylor_switch.hpp"
 
 namespace alembert {
@@ -55,7 +55,7 @@ public:
           watch_(events, system.rhs),
           places_(system.quick_places, system.rhs, terms_left_out * tolerance_),
           rounding_(tolerance_),
-          stiffness_(stable_interval(), dearer(), piece.turns.patience),
+          stiffness_(stable_interval(), dearer(), piece.switching.patience),
           recorder_(result_, events, sample_interval(options)),
           row_(initial.size()),
           event_rate_(initial.size()) {
@@ -177,7 +177,7 @@ private:
                                                               tolerance_, AnyStep::estimate_order, longest);
             ++further_evaluations_;
         }
-        double misfit = 0;
+        double error_norm = 0;
         bool was_foreseen = true;  // the end of the try before
         while (step_.time() < end_ && !ended()) {
             ask_whether_wanted();
@@ -185,19 +185,21 @@ private:
             h = within_quick_times(wish);
             const bool is_held = h < wish;
             if (is_over_budget()) return;
-            if (h < shortest() || step_.time() + h == step_.time()) return fail_underflow(misfit, h);
+            if (h < shortest() || step_.time() + h == step_.time()) return fail_underflow(error_norm, h);
             const double reach = step_.time() + std::min(1.01 * h, longest * (1 + 1e-9));
             step_.attempt(reach < end_ ? step_.time() + h : end_);
-            misfit = step_.misfit();
+            error_norm = step_.error_norm();
             const double noise = rounding(), allowed = std::max(tolerance_, noise);
             bool is_foreseen = true;
-            if (misfit <= allowed && !(finish() && (is_foreseen = is_foreseen_after(misfit)))) misfit = HUGE_VAL;
-            const bool good = misfit <= allowed;
+            if (error_norm <= allowed && !(finish() && (is_foreseen = is_foreseen_after(error_norm))))
+                error_norm = HUGE_VAL;
+            const bool good = error_norm <= allowed;
             if (good)
                 accept();
             else
                 ++result_.statistics.rejected;
-            if (step_.time() < end_) h = next_length(control, good, misfit / allowed * certainty(misfit, noise));
+            if (step_.time() < end_)
+                h = next_length(control, good, error_norm / allowed * certainty(error_norm, noise));
             if (good && !ended() && is_shrinking(std::min(h, longest)))
                 return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
             if (good && !was_foreseen) h = std::min(h, 2 * step_.length());  // what is ahead is still there
@@ -211,7 +213,7 @@ private:
     bool is_shrinking(double h) {
         if constexpr (!KnowsSeries<AnyStep>) return false;
         if (!options_.when_stuck || step_.time() >= end_) return false;
-        if (!system_.project && !piece_.turns.may_leave_series) return false;
+        if (!system_.project && !piece_.switching.may_leave_series) return false;
         double fastest = 0;
         for (int i = 0; i < result_.dimension; ++i) fastest = std::max(fastest, std::abs(step_.rate()[i]));
         return shrinking_.shrinks(h, fastest);
@@ -219,8 +221,8 @@ private:
 
     /// An estimate that is smaller than its rounding says nothing of the error but that it is not larger. A step
     /// length that followed it would stay where rounding has brought it by chance.
-    double certainty(double misfit, double noise) const {
-        return misfit < noise && noise > 0.01 * tolerance_ ? misfit / noise : 1;
+    double certainty(double error_norm, double noise) const {
+        return error_norm < noise && noise > 0.01 * tolerance_ ? error_norm / noise : 1;
     }
 
     /// The part of the error estimate of the step that may be rounding.
@@ -267,13 +269,13 @@ private:
 
     /// Whether the step has passed over nothing that the method cannot have seen, as far as that can be told. A
     /// step that is a good part of the run and has next to no error is looked at.
-    bool is_foreseen_after(double misfit) {
+    bool is_foreseen_after(double error_norm) {
         if (places_.watches() && step_.length() > 64 * shortest()) {
             clear_part_ = places_.clear_part(stretch());
             if (clear_part_ < 1) return false;
         }
         if constexpr (KnowsSeries<AnyStep>) return step_.foresees_end();
-        if (misfit > next_to_none * tolerance_) return true;  // so it is for most steps
+        if (error_norm > next_to_none * tolerance_) return true;  // so it is for most steps
         const int places = places_within(step_.length(), options_.duration);
         return places <= 1 || is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);
     }
@@ -308,22 +310,22 @@ private:
     void look_at_cost() {
         if constexpr (!AnyStep::has_fixed_step && !KnowsSeries<AnyStep> && !KnowsRounding<AnyStep>)
             rounding_.look(step_.rhs(), step_.time(), step_.state(), step_.rate());
-        if (!options_.when_stiff && !piece_.turns.back && !series_) return;
-        pace_.add(step_.time(), effort());
+        if (!options_.when_stiff && !piece_.switching.back && !series_) return;
+        cost_.add(step_.time(), effort());
         if (work() >= options_.budget) return;
         if (series_ && series_->finds_cheaper({.t = step_.time(),
                                                .y = step_.state(),
                                                .h = step_.length(),
                                                .spent = effort(),
                                                .left = end_ - step_.time()},
-                                              pace_.effort_per_time()))
+                                              cost_.effort_per_time()))
             return change_to(*options_.when_cheaper, Switch::Why::cheaper, 0);
         if (options_.when_stiff) {
             if (stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length()))
                 change_to(*options_.when_stiff, Switch::Why::stiff, stiffness_.largest_eigenvalue());
-        } else if (piece_.turns.back) {
+        } else if (piece_.switching.back) {
             if (const std::optional<Switch::Why> why = reason_to_come_back())
-                change_to(*piece_.turns.back, *why, largest_eigenvalue());
+                change_to(*piece_.switching.back, *why, largest_eigenvalue());
         }
     }
 
@@ -336,15 +338,16 @@ private:
     /// steps.
     std::optional<Switch::Why> reason_to_come_back() {
         constexpr double of_a_series = 8;  // of the usual orders
-        constexpr long window = Pace::window;
-        const double known = traits(*piece_.turns.back).stable_interval;
+        constexpr long window = CostModel::window;
+        const double known = traits(*piece_.switching.back).stable_interval;
         const double border = (known > 0 ? known : of_a_series) / 2;
         mild_steps_ = step_.length() * largest_eigenvalue() < border ? mild_steps_ + 1 : 0;
         if (result_.statistics.steps % window != 0) return std::nullopt;
         const double earlier = std::exchange(earlier_length_, step_.length());
         if (!(step_.length() < 1.5 * earlier)) return std::nullopt;
         if (mild_steps_ >= window) return Switch::Why::mild;
-        if (piece_.turns.effort_per_time > 0 && pace_.effort_per_time() > clearly * piece_.turns.effort_per_time)
+        if (piece_.switching.effort_per_time > 0 &&
+            cost_.effort_per_time() > clearly * piece_.switching.effort_per_time)
             return Switch::Why::dear;
         return std::nullopt;
     }
@@ -355,7 +358,7 @@ private:
                                              .largest_eigenvalue = eigenvalue,
                                              .step = step_.length(),
                                              .why = why,
-                                             .effort_per_time = pace_.effort_per_time()};
+                                             .effort_per_time = cost_.effort_per_time()};
         recorder_.last_row(step_.time(), step_.state());
     }
 
@@ -425,18 +428,18 @@ private:
                          step_.rhs().describe(bad), step_.time()));
     }
 
-    void fail_underflow(double misfit, double h) {
+    void fail_underflow(double error_norm, double h) {
         if (options_.when_stuck) return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
         const int worst = step_.worst_component();
         const std::string where = fmt::format("step size underflow at t = {} (step {:.3g})", step_.time(), h);
         const std::string component = step_.rhs().describe(worst);
         fail(
             FailureKind::step_underflow, worst,
-            std::isfinite(misfit)
+            std::isfinite(error_norm)
                 ? fmt::format(
                       "{}: {} is the stiffest component, its error was {:.3g} times the tolerance; there may be a "
                       "singularity here, or the tolerance is beyond double precision",
-                      where, component, misfit / tolerance_)
+                      where, component, error_norm / tolerance_)
                 : fmt::format(
                       "{}: {} or its rate is not finite, however short the step; there is a singularity here",
                       where, component));
@@ -467,11 +470,11 @@ private:
     double clear_part_ = 1;  ///< of the step that was just tried
     RoundingWatch rounding_;
     StiffnessWatch stiffness_;
-    Pace pace_;
+    CostModel cost_;
     long mild_steps_ = 0;  ///< the last steps with which the other method would be stable
-    std::optional<SeriesPace> series_ = {};
+    std::optional<TaylorSwitch> series_ = {};
     std::optional<Disturbance> disturbance_ = {};
-    ShrinkingSteps shrinking_;   ///< of a power series
+    StepCollapse shrinking_;     ///< of a power series
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;
     Recorder recorder_;

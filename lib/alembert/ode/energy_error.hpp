@@ -3,10 +3,10 @@
 
 /// How far E, E − W and T₂ − T₀ + V depart from their values at the start, over all accepted steps of a run.
 ///
-///     Drift drift(n, s, with_work);
-///     drift(table, par, t, state, rate);       // at the start and after each step
-///     drift.add({.kinetic = T, .total = E, .jacobi = h}, work);        // the same with the energies in hand
-///     drift.balance();
+///     EnergyError error(n, s, with_work);
+///     error(table, par, t, state, rate);       // at the start and after each step
+///     error.add({.kinetic = T, .total = E, .jacobi = h}, work);        // the same with the energies in hand
+///     error.balance();
 ///
 /// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that is due to a
 /// moving frame (energy.hpp); both count as work. If one of these was not a number at any step, neither is what is
@@ -21,10 +21,10 @@
 
 namespace alembert {
 
-class Drift {
+class EnergyError {
 public:
     /// The state has n coordinates and s speeds; with `with_work`, ∫ power dt follows them.
-    Drift(int n, int s, bool with_work) : size_(n + s), with_work_(with_work) {}
+    EnergyError(int n, int s, bool with_work) : size_(n + s), with_work_(with_work) {}
 
     void operator()(const alembert_solver_table& table, const std::vector<double>& par, double t,
                     std::span<const double> state, std::span<const double> rate) {

@@ -135,8 +135,9 @@ bool EventWatch::is_bounded(const StepView& step, const Piece& piece, const Five
     return true;
 }
 
-/// Whether the five samples show all zeros of an event: where it may be zero, the misfit is small compared with
-/// the values and slopes around that place. A misfit that may be rounding says nothing.
+/// Whether the five samples show all zeros of an event: where it may be zero, the interpolation error is small
+/// compared with the values and slopes around that place. An interpolation error that may be rounding says
+/// nothing.
 bool EventWatch::describes(const StepView& step, const Piece& piece, const FivePoints& points, int index) {
     constexpr double of_values = 0.05, of_slopes = 0.2, beside_zero = 0.2;
     const auto k = static_cast<std::size_t>(index);
@@ -152,7 +153,7 @@ bool EventWatch::describes(const StepView& step, const Piece& piece, const FiveP
         zero += 0 * (g_five_[i] + slope_five_[i]);
     }
     if (zero != 0) return std::all_of(g_five_.begin(), g_five_.end(), [](double g) { return std::isnan(g); });
-    const Misfit misfit = points.misfit(g_five_, slope_five_);
+    const InterpolationError interpolation_error = points.interpolation_error(g_five_, slope_five_);
     double allowed = of_values * largest, allowed_slope = of_slopes * steepest;
     for (std::size_t i = 0; i < 4; ++i) {
         if (side_of(g_five_[i]) * side_of(g_five_[i + 1]) > 0) continue;
@@ -164,9 +165,10 @@ bool EventWatch::describes(const StepView& step, const Piece& piece, const FiveP
         allowed = std::max(allowed, least / 2);
         allowed_slope = std::max(allowed_slope, 4 * least / width);
     }
-    if (misfit.value <= allowed && misfit.slope <= allowed_slope) return true;
+    if (interpolation_error.value <= allowed && interpolation_error.slope <= allowed_slope) return true;
     const double noise = rounding(step, index) * (16 + width * (step.end - step.start) / ahead(step));
-    return misfit.value <= allowed + noise && misfit.slope <= allowed_slope + 8 * noise / width;
+    return interpolation_error.value <= allowed + noise &&
+           interpolation_error.slope <= allowed_slope + 8 * noise / width;
 }
 
 /// The change of an event's value in the middle of the step by a rounding error in each component of the state.

@@ -10,8 +10,8 @@
 /// The motion is smooth within a step, because the method has chosen the step so; an event may turn many times in
 /// it, as cos(40 x) does. So each step is divided until five points with slopes describe the event
 /// (five_points.hpp) wherever it may be zero. A piece in which the event stays away from zero by clearly more than
-/// its misfit is not divided. Slopes come from the rates of the motion, so that an event that changes fast is
-/// noticed although its values at the five points may look harmless.
+/// its interpolation error is not divided. Slopes come from the rates of the motion, so that an event that changes
+/// fast is noticed although its values at the five points may look harmless.
 ///
 /// The values of an event cannot tell of what happens between them. So where its bounds are known
 /// (Events::bounds), a piece is also divided until they show, between each two points, that the event has no zero

@@ -3,14 +3,14 @@
 
 /// One step of an explicit Runge-Kutta method given by a tableau: stages, new state, error estimate, dense output.
 ///
-///     Step<dop853_tableau> step(rhs, t, state);
+///     ExplicitRK<dop853_tableau> step(rhs, t, state);
 ///     step.attempt(t + h);                     // stages and y₁
-///     const double misfit = step.misfit();     // the largest error; infinite if something is not finite
+///     step.error_norm();                       // the largest error; infinite if something is not finite
 ///     if (step.finish())                       // the rate at the end; false: not finite
 ///         step.interpolate(0.5, middle);       // anywhere in the step, θ = 0…1
 ///     step.advance();                          // the end becomes the start
 ///
-/// If the misfit is too large or `finish` fails, `worst_component` gives the component responsible.
+/// If it is too large or `finish` fails, `worst_component` gives the component responsible.
 ///
 /// The sums of stages are made in registers of four numbers where the processor has them (AVX2), else of two,
 /// which every x86-64 has; the digits are the same, since each number has its own sum in the order of the weights,
@@ -20,7 +20,7 @@
 /// §VIII.5): a small step then loses nothing of what it adds to a large state, and the stages start from both
 /// numbers.
 ///
-/// The error is measured component by component as |error_i| / max(1, |y_i|). The largest value is the misfit,
+/// The error is measured component by component as |error_i| / max(1, |y_i|). The largest value is the error norm,
 /// which is compared with the tolerance. With two rows of error weights (dop853) the error is that of Hairer,
 /// Nørsett, Wanner I, §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole
 /// vector, while here each component has its own (on the problems of step_size.hpp this needs up to 15 % fewer
@@ -34,7 +34,7 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "alembert/ode/stage_sums.hpp"
 #include "alembert/ode/tableau.hpp"
@@ -42,7 +42,7 @@
 namespace alembert {
 
 template <const auto& tableau>
-class Step {
+class ExplicitRK {
     static constexpr int stages = tableau.stages;
 
 public:
@@ -51,14 +51,14 @@ public:
     static constexpr int most_evaluations() { return tableau.all_stages; }
 
     /// The tolerance is for methods that solve equations in a step; this one does not.
-    Step(const Rhs& rhs, double t, std::span<const double> state, double /*tolerance*/ = 0)
+    ExplicitRK(const Rhs& rhs, double t, std::span<const double> state, double /*tolerance*/ = 0)
         : rhs_(rhs),
           controlled_(rhs.dimension - rhs.extra),
           stride_(std::max((rhs.dimension + pack - 1) / pack * pack, short_stride)),
           memory_(static_cast<std::size_t>(stride_ / pack) * (arrays + tableau.all_stages + tableau.dense_rows)),
           t_(t) {
         if (rhs.dimension > least_for_wide && registers() != Registers::usual)
-            kernel_ = {attempt_256, misfit_256, finite_256};
+            kernel_ = {attempt_256, error_norm_256, finite_256};
         std::copy(state.begin(), state.end(), array(y_));
         rate_into(0, t, array(y_));
     }
@@ -81,7 +81,7 @@ public:
         kernel_.attempt(*this);
     }
 
-    double misfit() { return kernel_.misfit(*this); }
+    double error_norm() { return kernel_.error_norm(*this); }
 
     /// Moves the end of an attempted step onto its constraints and evaluates the rate again. A component that does
     /// not move keeps its compensation of rounding.
@@ -152,9 +152,9 @@ private:
 
     /// What depends on the registers of the processor.
     struct Kernel {
-        void (*attempt)(Step&);
-        double (*misfit)(Step&);
-        bool (*is_finite)(const Step&, const double* values);
+        void (*attempt)(ExplicitRK&);
+        double (*error_norm)(ExplicitRK&);
+        bool (*is_finite)(const ExplicitRK&, const double* values);
     };
 
     static constexpr bool last_stage_in_estimate() {
@@ -196,14 +196,14 @@ private:
     template <int width>
     struct Work {
         using Lane = typename RegisterOf<width>::Lane;
-        static Lane* lanes(Step& s, int which) { return reinterpret_cast<Lane*>(s.array(which)); }
+        static Lane* lanes(ExplicitRK& s, int which) { return reinterpret_cast<Lane*>(s.array(which)); }
         static const Lane* lanes(const double* from) { return reinterpret_cast<const Lane*>(from); }
-        static int blocks(const Step& s) { return (s.rhs_.dimension + width - 1) / width; }
+        static int blocks(const ExplicitRK& s) { return (s.rhs_.dimension + width - 1) / width; }
 
         /// Calls `function` with the stride. For short states that is a constant, so that the distances of all
         /// stages from the first are constants, which saves 5 % of the time of a free body.
         template <class Function>
-        [[gnu::always_inline]] static void with_stride(const Step& s, Function function) {
+        [[gnu::always_inline]] static void with_stride(const ExplicitRK& s, Function function) {
             if (s.stride_ == short_stride)
                 function(std::integral_constant<int, short_stride / width>());
             else
@@ -225,7 +225,7 @@ private:
         }
 
         template <int i>
-        [[gnu::always_inline]] static void evaluate(Step& s) {
+        [[gnu::always_inline]] static void evaluate(ExplicitRK& s) {
             with_stride(
                 s, [&](auto stride) __attribute__((always_inline)) {
                     const Lane *const k = lanes(s, arrays), *const y = lanes(s, s.y_),
@@ -242,18 +242,18 @@ private:
         }
 
         template <int... i>
-        [[gnu::always_inline]] static void evaluate_all(Step& s, std::integer_sequence<int, i...>) {
+        [[gnu::always_inline]] static void evaluate_all(ExplicitRK& s, std::integer_sequence<int, i...>) {
             (evaluate<i + 1>(s), ...);
         }
 
-        [[gnu::always_inline]] static void attempt(Step& s) {
+        [[gnu::always_inline]] static void attempt(ExplicitRK& s) {
             evaluate_all(s, std::make_integer_sequence<int, stages - 1>());
             add_up(s);
             if constexpr (last_stage_in_estimate()) s.rate_into(stages, s.end_, s.array(s.next_));
         }
 
         /// y₁ + rest₁ = y + (rest + h Σ b_j k_j), by Knuth's exact sum of two doubles.
-        [[gnu::always_inline]] static void add_up(Step& s) {
+        [[gnu::always_inline]] static void add_up(ExplicitRK& s) {
             with_stride(
                 s, [&](auto stride) __attribute__((always_inline)) {
                     const Lane *const k = lanes(s, arrays), *const start = lanes(s, s.y_),
@@ -270,7 +270,7 @@ private:
         }
 
         /// The squared errors of block b, in units of max(1, |y_i|).
-        [[gnu::always_inline]] static void squared_error(Step& s, auto stride, int b, Lane& square) {
+        [[gnu::always_inline]] static void squared_error(ExplicitRK& s, auto stride, int b, Lane& square) {
             const Lane *const k = lanes(s, arrays) + b, y = lanes(s, s.y_)[b], next = lanes(s, s.next_)[b];
             const Lane size = y > -y ? y : -y, next_size = next > -next ? next : -next, one = Lane{} + 1;
             Lane scale = size > next_size ? size : next_size;
@@ -288,7 +288,7 @@ private:
             }
         }
 
-        [[gnu::always_inline]] static double misfit(Step& s) {
+        [[gnu::always_inline]] static double error_norm(ExplicitRK& s) {
             Lane* const errors = lanes(s, error_);
             with_stride(
                 s, [&](auto stride) __attribute__((always_inline)) {
@@ -311,7 +311,7 @@ private:
             return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
         }
 
-        [[gnu::always_inline]] static bool is_finite(const Step& s, const double* values) {
+        [[gnu::always_inline]] static bool is_finite(const ExplicitRK& s, const double* values) {
             Lane zeros{};
             int i = 0;
             for (; i + width <= s.controlled_; i += width) zeros += lanes(values)[i / width] * 0;
@@ -322,22 +322,24 @@ private:
         }
     };
 
-    static void attempt_any(Step& step) { Work<2>::attempt(step); }
-    static double misfit_any(Step& step) {
+    static void attempt_any(ExplicitRK& step) { Work<2>::attempt(step); }
+    static double error_norm_any(ExplicitRK& step) {
         if constexpr (has_fixed_step)
             return 0;
         else
-            return Work<2>::misfit(step);
+            return Work<2>::error_norm(step);
     }
-    static bool finite_any(const Step& step, const double* values) { return Work<2>::is_finite(step, values); }
-    ALEMBERT_WIDE_SAME_DIGITS static void attempt_256(Step& step) { Work<4>::attempt(step); }
-    ALEMBERT_WIDE_SAME_DIGITS static double misfit_256(Step& step) {
+    static bool finite_any(const ExplicitRK& step, const double* values) {
+        return Work<2>::is_finite(step, values);
+    }
+    ALEMBERT_WIDE_SAME_DIGITS static void attempt_256(ExplicitRK& step) { Work<4>::attempt(step); }
+    ALEMBERT_WIDE_SAME_DIGITS static double error_norm_256(ExplicitRK& step) {
         if constexpr (has_fixed_step)
             return 0;
         else
-            return Work<4>::misfit(step);
+            return Work<4>::error_norm(step);
     }
-    ALEMBERT_WIDE_SAME_DIGITS static bool finite_256(const Step& step, const double* values) {
+    ALEMBERT_WIDE_SAME_DIGITS static bool finite_256(const ExplicitRK& step, const double* values) {
         return Work<4>::is_finite(step, values);
     }
 
@@ -363,7 +365,7 @@ private:
     int controlled_;  ///< number of components under error control
     int stride_;      ///< numbers from one array to the next
     std::vector<Pack> memory_;
-    Kernel kernel_{attempt_any, misfit_any, finite_any};
+    Kernel kernel_{attempt_any, error_norm_any, finite_any};
     int y_ = 0, rest_ = 1, next_ = 2,
         next_rest_ = 3;  ///< places of the arrays in memory; those of y and next are exchanged after a step
     static constexpr int trial_ = 4, difference_ = 5, error_ = 6;

@@ -46,8 +46,8 @@ FivePoints::Prediction FivePoints::left_out(std::size_t i) const {
     return result;
 }
 
-Misfit FivePoints::misfit(const FiveNumbers& value, const FiveNumbers& slope) const {
-    Misfit largest;
+InterpolationError FivePoints::interpolation_error(const FiveNumbers& value, const FiveNumbers& slope) const {
+    InterpolationError largest;
     for (std::size_t i = 0; i < 3; ++i) {
         double v = -value[i + 1], s = -slope[i + 1];
         for (std::size_t j = 0; j < 5; ++j) {

@@ -12,8 +12,8 @@
 /// period. Therefore, and where it contracts too little, the simplified Newton method replaces it for the rest of
 /// the run, (I − h A ⊗ J) ΔZ = h (A ⊗ I) F − Z as one dense system of size 3n, whose last change has either sign.
 /// It takes over where changes shrink to more than a twentieth, in systems of more than 8 components to more than
-/// a half. J = ∂f/∂y at the start of a step (newton.hpp) is kept until more rounds than usual are needed. The
-/// iteration starts from the polynomial of the step before (§VIII.6.1).
+/// a half. J = ∂f/∂y at the start of a step (newton_iteration.hpp) is kept until more rounds than usual are
+/// needed. The iteration starts from the polynomial of the step before (§VIII.6.1).
 ///
 /// Each coefficient is a number of ten binary digits and a rest. Coefficients that are rounded once do not obey
 /// the condition of symplecticity, b_i a_ij + b_j a_ji = b_i b_j, by some 1e-17, which makes the energy drift in
@@ -28,7 +28,7 @@
 #include <optional>
 
 #include "alembert/base/dense.hpp"
-#include "alembert/ode/newton.hpp"
+#include "alembert/ode/newton_iteration.hpp"
 
 namespace alembert {
 

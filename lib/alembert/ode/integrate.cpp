@@ -15,7 +15,7 @@
 #include "alembert/base/process_time.hpp"
 #include "alembert/hybrid/automaton.hpp"
 #include "alembert/ode/driver.hpp"
-#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/method_table.hpp"
 #include "alembert/ode/time_transformation.hpp"
 
@@ -103,7 +103,7 @@ public:
         const bool is_cheaper = next_->why == Switch::Why::cheaper;
         if (is_cheaper) when_stuck_ = std::exchange(usual_, *when_cheaper_);
         may_leave_series_ = may_leave_series_ || is_cheaper;
-        piece.turns.may_leave_series = may_leave_series_;
+        piece.switching.may_leave_series = may_leave_series_;
         if (is_stuck) usual_ = *std::exchange(when_stuck_, {});
         if (is_stuck || is_cheaper) when_cheaper_ = {};
         rest.method = usual_;
@@ -114,10 +114,10 @@ public:
             rest.method = *options_.when_stiff;
             rest.when_stiff = {};
             rest.step = next_->step;
-            piece.turns.back = usual_;
-            piece.turns.effort_per_time = next_->effort_per_time;
+            piece.switching.back = usual_;
+            piece.switching.effort_per_time = next_->effort_per_time;
         } else if (!is_stuck && !is_cheaper) {
-            piece.turns.patience = patience_;
+            piece.switching.patience = patience_;
             patience_ *= 4;
         }
         System system = system_;
@@ -165,20 +165,8 @@ private:
 
 }  // namespace
 
-System with_abilities_in(const Options& options, System system) {
-    if (!system.project) system.project = options.project;
-    if (system.quick_times.empty()) system.quick_times = options.quick_times;
-    return system;
-}
-
 Trajectory integrate(const System& system, const std::vector<double>& initial, const Options& options,
                      const Events& events, const RunPiece& piece) {
-    if (options.project || !options.quick_times.empty()) {
-        Options wishes = options;
-        wishes.project = {};
-        wishes.quick_times = {};
-        return integrate(with_abilities_in(options, system), initial, wishes, events, piece);
-    }
     check_options(system.rhs, initial, options);
     const double start = thread_seconds();
     if (system.on_method) system.on_method(options.method);

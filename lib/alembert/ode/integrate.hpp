@@ -23,7 +23,7 @@
 /// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |
-/// | rattle | 2 | fixed; holonomic constraints (rattle.hpp) | a shorter step, order 2 | oscillators with hω < 2 |
+/// | rattle | 2 | fixed; holonomic constraints (rattle_step.hpp) | a shorter step, order 2 | oscillators with hω < 2 |
 /// | rattle8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | abm | 4 | adaptive | order 4 | -1.28 < hλ < 0 |
 /// | bdf | 1 to 5 | adaptive, stiff | its order | sectors about hλ < 0 of 90°, 90°, 86°, 73°, 51° to either side |
@@ -46,10 +46,10 @@
 #include <vector>
 
 #include "alembert/ode/events.hpp"
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/method.hpp"
 #include "alembert/ode/options.hpp"
-#include "alembert/ode/piece.hpp"
 #include "alembert/ode/rhs.hpp"
+#include "alembert/ode/run_piece.hpp"
 #include "alembert/ode/system.hpp"
 #include "alembert/ode/trajectory.hpp"
 
@@ -58,15 +58,12 @@ namespace alembert {
 /// The check of options with which `integrate` begins.
 void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options);
 
-/// `piece` is for runs that come in pieces (piece.hpp).
+/// `piece` is for runs that come in pieces (run_piece.hpp).
 Trajectory integrate(const System& system, const std::vector<double>& initial, const Options& options,
                      const Events& events = {}, const RunPiece& piece = {});
 
 /// A system that can no more than its right-hand side.
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});
-
-/// The system with `project` and `quick_times` of options in which a program of version 0.1 gives them.
-System with_abilities_in(const Options& options, System system);
 
 }  // namespace alembert

@@ -4,12 +4,12 @@
 /// The one table of integrators: all that is known of each, and the steps of which it is made.
 ///
 ///     std::get<0>(method_rows).traits.name                               // "euler"
-///     typename std::tuple_element_t<4, MethodRows>::Steps                // Step<dop853_tableau>
+///     typename std::tuple_element_t<4, MethodRows>::Steps                // ExplicitRK<dop853_tableau>
 ///
-/// A new integrator is a value of Method (methods.hpp), a file with its tableau (tableau.hpp) or its formula
-/// (formula.hpp), and a row here. `integrate`, ensembles, the search for stiffness, the reader of scenes, help and
-/// messages go by the row. Only methods.cpp, integrate.cpp and ensemble.cpp include this file: all others ask
-/// methods.hpp.
+/// A new integrator is a value of Method (method.hpp), a file with its tableau (tableau.hpp) or its formula
+/// (formula_stepper.hpp), and a row here. `integrate`, ensembles, the search for stiffness, the reader of scenes,
+/// help and messages go by the row. Only method.cpp, integrate.cpp and ensemble.cpp include this file: all others
+/// ask method.hpp.
 
 #include <tuple>
 
@@ -17,14 +17,14 @@
 #include "alembert/ode/bdf.hpp"
 #include "alembert/ode/dop853.hpp"
 #include "alembert/ode/explicit_rk.hpp"
-#include "alembert/ode/formula.hpp"
+#include "alembert/ode/formula_stepper.hpp"
 #include "alembert/ode/gauss.hpp"
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/method.hpp"
 #include "alembert/ode/nystrom.hpp"
 #include "alembert/ode/radau.hpp"
-#include "alembert/ode/rattle.hpp"
+#include "alembert/ode/rattle_step.hpp"
 #include "alembert/ode/stepper.hpp"
-#include "alembert/ode/symplectic.hpp"
+#include "alembert/ode/symplectic_composition.hpp"
 #include "alembert/ode/tableau.hpp"
 #include "alembert/ode/taylor.hpp"
 #include "alembert/ode/verner.hpp"
@@ -34,7 +34,7 @@ namespace alembert {
 /// An explicit Runge-Kutta method; members of an ensemble run side by side by the same tableau.
 template <const auto& of>
 struct ExplicitRow {
-    using Steps = Step<of>;
+    using Steps = ExplicitRK<of>;
     static constexpr const auto& tableau = of;
     MethodTraits traits;
 };
@@ -43,7 +43,7 @@ struct ExplicitRow {
 template <class OfFormula>
 struct FormulaRow {
     using Formula = OfFormula;
-    using Steps = Stepper<Formula>;
+    using Steps = FormulaStepper<Formula>;
     MethodTraits traits;
 };
 

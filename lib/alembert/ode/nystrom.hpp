@@ -4,7 +4,7 @@
 /// Runge-Kutta-Nyström methods as formulas, for a state (q, v) with q' = v and accelerations a(t, q) that do not
 /// depend on rates.
 ///
-///     Stepper<Nystrom<rkn1210_tableau>> step(rhs, t, state, tolerance);
+///     FormulaStepper<Nystrom<rkn1210_tableau>> step(rhs, t, state, tolerance);
 ///
 /// The caller must know that a system is of this kind, because a right-hand side does not show it;
 /// std::invalid_argument is thrown for a state that is not (q, v). For the same error these methods take several
@@ -23,9 +23,9 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/ode/formula.hpp"
+#include "alembert/ode/formula_stepper.hpp"
 #include "alembert/ode/nystrom_stages.hpp"
-#include "alembert/ode/nystrom_tableaus.hpp"
+#include "alembert/ode/nystrom_tableau.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The stages of a Runge-Kutta-Nyström method (nystrom_tableaus.hpp) and what they add up to.
+/// The stages of a Runge-Kutta-Nyström method (nystrom_tableau.hpp) and what they add up to.
 ///
 ///     NystromStages<rkn86_tableau> stages(n, size);
 ///     stages.reach(ends, {.t = t, .q = q, .v = v, .a = a, .rest = rest}, h);
@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/native/cpu_features.hpp"
-#include "alembert/ode/formula.hpp"
-#include "alembert/ode/nystrom_tableaus.hpp"
+#include "alembert/native/registers.hpp"
+#include "alembert/ode/formula_stepper.hpp"
+#include "alembert/ode/nystrom_tableau.hpp"
 #include "alembert/ode/stage_sums.hpp"
 
 namespace alembert {

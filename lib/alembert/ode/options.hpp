@@ -6,7 +6,7 @@
 ///     const Options options{.method = Method::dop853, .duration = 10, .tolerance = 1e-12};
 ///
 /// What a system can do (derivatives, power series, a projection onto its constraints) stands in `System`
-/// (system.hpp), and what the pieces of a run know of each other in `RunPiece` (piece.hpp). `check_options`
+/// (system.hpp), and what the pieces of a run know of each other in `RunPiece` (run_piece.hpp). `check_options`
 /// (integrate.hpp) says which values make no sense.
 
 #include <cstdint>
@@ -15,8 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "alembert/ode/input_time_scales.hpp"
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/method.hpp"
 
 namespace alembert {
 
@@ -40,14 +39,13 @@ struct Options {
     double tolerance = 1e-9;  ///< adaptive methods
     double step = 0;  ///< the step of methods with a fixed step, and of taylor if given; for the others the first
                       ///< step, found automatically if 0
-    double longest_step = 0;                  ///< for adaptive methods; 0 means no bound
-    std::vector<QuickTime> quick_times = {};  ///< of version 0.1, for one version more: write System::quick_times
-    double sample = 0;                        ///< time between rows; 0: duration/200
+    double longest_step = 0;  ///< for adaptive methods; 0 means no bound
+    double sample = 0;        ///< time between rows; 0: duration/200
     /// The most evaluations of the right-hand side; no step is begun that could exceed it.
     long budget = 10'000'000;
-    /// If stiffness is found to limit the steps of an explicit method (stiffness.hpp), the run goes on with this
-    /// method. It comes back where the explicit one would be stable with the same steps, or where the steps of the
-    /// other turn out to cost more (cost_model.hpp).
+    /// If stiffness is found to limit the steps of an explicit method (stiffness_watch.hpp), the run goes on with
+    /// this method. It comes back where the explicit one would be stable with the same steps, or where the steps
+    /// of the other turn out to cost more (cost_model.hpp).
     std::optional<Method> when_stiff = {};
     /// Where no step is short enough, as for a power series whose coefficients overflow or that is none at the
     /// start (sqrt(t) at t = 0), the run goes on with this method to its end. So it does where the series of a
@@ -59,8 +57,7 @@ struct Options {
     /// (taylor_switch.hpp), the run goes on with this method, which must be taylor. It comes back where the steps
     /// of the series become very short, as above.
     std::optional<Method> when_cheaper = {};
-    OnStep on_step = {};                                        ///< may be empty
-    std::function<void(double t, double* state)> project = {};  ///< likewise: write System::project
+    OnStep on_step = {};  ///< may be empty
     Regularization regularization = Regularization::none;
     Disturbed disturbed = {};
 };

@@ -41,9 +41,9 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       rows_(static_cast<std::size_t>(all_) * static_cast<std::size_t>(n_ + s_)),
       off_(static_cast<std::size_t>(2 * all_)),
       moved_(static_cast<std::size_t>(n_ + s_)),
-      misfit_(static_cast<std::size_t>(m_)),
-      pivots_(misfit_.size()),
-      largest_pivots_(misfit_.size()),
+      violation_(static_cast<std::size_t>(m_)),
+      pivots_(violation_.size()),
+      largest_pivots_(violation_.size()),
       saddle_(s_, m_) {}
 
 void Projection::evaluate(double t, const double* state, const double* par) {
@@ -75,7 +75,8 @@ void Projection::begin(double t, const double* start) {
     if (!(fastest > 0 && fastest < HUGE_VAL)) return;
     const auto look = [&](double share) {
         q = first + share * distance * (size > 0 ? std::min(size, 1.0) : 1) / fastest * along;
-        module_.projection()->project(t, state.data(), par_.data(), moved_.data(), misfit_.data(), pivots_.data());
+        module_.projection()->project(t, state.data(), par_.data(), moved_.data(), violation_.data(),
+                                      pivots_.data());
     };
     look(0.5);
     const std::vector<double> halfway = pivots_;
@@ -130,10 +131,10 @@ bool Projection::unrolled(double t, double* state) {
     is_near_singular_ = false;
     double former = HUGE_VAL;
     for (int round = 0; round < most_corrections && project != nullptr; ++round) {
-        project(t, state, par_.data(), moved_.data(), misfit_.data(), pivots_.data());
+        project(t, state, par_.data(), moved_.data(), violation_.data(), pivots_.data());
         double size = 0, zero = 0;
         bool moves = false, is_large = false;
-        for (const double misfit : misfit_) size = std::max(size, std::abs(misfit));
+        for (const double violation : violation_) size = std::max(size, std::abs(violation));
         for (std::size_t i = 0; i < moved_.size(); ++i) {
             const double change = std::abs(moved_[i] - state[i]), scale = std::max(1.0, std::abs(state[i]));
             moves |= change > one_rounding * scale;
@@ -152,16 +153,17 @@ bool Projection::unrolled(double t, double* state) {
     return true;
 }
 
-/// M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ misfit = L⁻ᵀ (B L⁻ᵀ)⁺ misfit, B being A in speeds
-Eigen::VectorXd Projection::along_speeds(const Eigen::VectorXd& misfit) const {
+/// M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ violation = L⁻ᵀ (B L⁻ᵀ)⁺ violation, B being A in speeds
+Eigen::VectorXd Projection::along_speeds(const Eigen::VectorXd& violation) const {
     const Rows B = in_speeds();
     const Cholesky factors(mass_);
-    if (!factors.exists() && is_near_singular_) return saddle_.solve(mass_, B, Eigen::VectorXd::Zero(s_), misfit);
+    if (!factors.exists() && is_near_singular_)
+        return saddle_.solve(mass_, B, Eigen::VectorXd::Zero(s_), violation);
     if (!factors.exists()) {
         const Eigen::MatrixXd across = solve_symmetric(mass_, B.transpose());
-        return across * least_norm(B * across, misfit).x;
+        return across * least_norm(B * across, violation).x;
     }
-    return factors.solve_upper(least(factors.solve_lower(B.transpose()).transpose(), misfit));
+    return factors.solve_upper(least(factors.solve_lower(B.transpose()).transpose(), violation));
 }
 
 /// S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ f, with S from differences of the file's q', which is linear in u; or Aₑ⁺ f if the speeds
@@ -264,8 +266,8 @@ bool Projection::accelerations(double t, const double* state, const double* par,
     const Eigen::VectorXd lacking = gamma_ - across.transpose() * free;
     Eigen::VectorXd along;
     if (others) {
-        const Eigen::MatrixXd rubbing = factors.solve_lower(others(t, state));
-        along = (across + rubbing) * multipliers(across, rubbing, lacking);
+        const Eigen::MatrixXd against_friction = factors.solve_lower(others(t, state));
+        along = (across + against_friction) * multipliers(across, against_friction, lacking);
     } else {
         along = least(across.transpose(), lacking);
     }

@@ -83,7 +83,7 @@ private:
     void forget();
     Eigen::VectorXd least(Eigen::MatrixXd B, Eigen::VectorXd r) const;
     Eigen::VectorXd multipliers(Eigen::MatrixXd across, Eigen::MatrixXd others, Eigen::VectorXd r) const;
-    Eigen::VectorXd along_speeds(const Eigen::VectorXd& misfit) const;
+    Eigen::VectorXd along_speeds(const Eigen::VectorXd& violation) const;
     Eigen::VectorXd in_positions(double t, const double* state) const;
     struct Guard;
     static void careful(const void* context, double t, const double* state, double* rate);
@@ -95,8 +95,9 @@ private:
     Rows mass_;
     std::vector<double> rows_;  ///< A, followed, if the speeds are not the rates, by A in terms of the speeds
     std::vector<double> off_;   ///< f of all constraints, then A q' + b
-    std::vector<double> moved_, misfit_, pivots_, largest_pivots_;  // one for each constraint in the file's order
-    SaddlePoint saddle_;                                            ///< measured where a pivot has grown
+    std::vector<double> moved_, violation_, pivots_,
+        largest_pivots_;  // one for each constraint in the file's order
+    SaddlePoint saddle_;  ///< measured where a pivot has grown
     bool is_near_singular_ = false, have_grown_ = false;
 };
 

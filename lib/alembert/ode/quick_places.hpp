@@ -5,7 +5,7 @@
 /// exp(−((x − 5)/w)²) and tanh(v/w) do, and whether a step has passed over such a region.
 ///
 ///     PlaceWatch watch({quick_places_code(program), parameters}, rhs, allowed);      // program/event_code.hpp
-///     const double part = watch.clear_part(step);       // 1, or where the next try should end
+///     watch.clear_part(step);                           // 1, or where the next try should end
 ///
 /// A method sees the right-hand side at its stages, a power series sees it at the start of a step; a narrow hill
 /// between them leaves no trace, and the estimated error is zero. The states within a step are known, however. So

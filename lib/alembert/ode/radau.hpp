@@ -6,8 +6,8 @@
 ///     Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),   y₁ = y + Z_s
 ///
 /// The equations are solved by the simplified Newton method with one ∂f/∂y, the emitted one if there is one
-/// (newton.hpp). In the basis of the eigenvectors of A⁻¹ the s n equations decouple into one real and (s − 1)/2
-/// complex systems of n, (λ_k/h − J) ΔW_k = … (collocation.hpp).
+/// (newton_iteration.hpp). In the basis of the eigenvectors of A⁻¹ the s n equations decouple into one real and (s
+/// − 1)/2 complex systems of n, (λ_k/h − J) ΔW_k = … (radau_table.hpp).
 ///
 /// The error estimate is (I − hγ₀J)⁻¹ (γ₀ h f(t, y) + Σ e_i Z_i), of order h^{s+1}; in the first step and after a
 /// rejection it is filtered once more. Dense output is the collocation polynomial, whose error is of order h^{s+1}
@@ -21,9 +21,9 @@
 /// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8; the same, Stiff
 /// differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
 
-#include "alembert/ode/collocation.hpp"
-#include "alembert/ode/newton.hpp"
+#include "alembert/ode/newton_iteration.hpp"
 #include "alembert/ode/radau_stages.hpp"
+#include "alembert/ode/radau_table.hpp"
 #include "alembert/ode/shifted_linear_solver.hpp"
 #include "alembert/ode/step_size.hpp"
 
@@ -41,7 +41,7 @@ public:
           enough_(std::max(1e-2 * tolerance, least_rounding)),
           jacobian_(n_),
           real_(n_),
-          complex_((most - 1) / 2, Shifted<std::complex<double>>(n_)),
+          complex_((most - 1) / 2, ShiftedLinearSolver<std::complex<double>>(n_)),
           stages_(n_),
           side_(n_),
           solution_(n_),
@@ -186,7 +186,7 @@ private:
     }
 
     bool solve(Ends& ends, double h) {
-        Contraction contraction(std::max(enough_, rounding_), s_ + 7, std::max(rounding_, least_rounding));
+        NewtonIteration iteration(std::max(enough_, rounding_), s_ + 7, std::max(rounding_, least_rounding));
         double* const scale = stages_.scale();
         for (int i = 0; i < ends.controlled; ++i)
             scale[i] = 1 / std::max(1.0, std::abs(ends.y[static_cast<std::size_t>(i)]));
@@ -196,10 +196,10 @@ private:
                 for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = ends.y[i] + (change[i] + ends.rest[i]);
                 ends.evaluate(ends.t + table_->c[k] * h, state_.data(), stages_.rate(k));
             }
-            const auto verdict = contraction.after(correct(h));
-            ratio_ = contraction.ratio();
-            if (verdict == Contraction::more) continue;
-            return verdict == Contraction::done;
+            const auto verdict = iteration.after(correct(h));
+            ratio_ = iteration.ratio();
+            if (verdict == NewtonIteration::more) continue;
+            return verdict == NewtonIteration::done;
         }
     }
 
@@ -241,8 +241,8 @@ private:
     const RadauTable* table_ = nullptr;
     Jacobian jacobian_;
     int pairs_ = 0;  ///< of second_order(jacobian)
-    Shifted<double> real_;
-    std::vector<Shifted<std::complex<double>>> complex_;
+    ShiftedLinearSolver<double> real_;
+    std::vector<ShiftedLinearSolver<std::complex<double>>> complex_;
     RadauStages stages_;
     Eigen::VectorXd side_, solution_;
     std::vector<std::complex<double>> complex_side_, complex_solution_;

@@ -8,9 +8,8 @@
 ///     RadauStages stages(6);                    // components
 ///     stages.take(radau_table(5));              // five stages, all zero
 ///     rhs(t + c[k] * h, state, stages.rate(k)); // for each of them
-///     stages.find_sides(1 / h);                 // side(0): of the real system; side(2p + 1), side(2p + 2): the
-///     real
-///                                               // and the imaginary parts of the complex system p
+///     stages.find_sides(1 / h);                 // side(0): of the real system; side(2p + 1), side(2p + 2):
+///                                               // real and imaginary parts of the complex system p
 ///     stages.correct();                         // Z += V · solutions
 ///
 /// With F_k = f(t + c_k h, y + Z_k) the sides are V⁻¹(F − A⁻¹Z/h).
@@ -22,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/native/cpu_features.hpp"
-#include "alembert/ode/collocation.hpp"
+#include "alembert/native/registers.hpp"
+#include "alembert/ode/radau_table.hpp"
 
 namespace alembert {
 

@@ -46,9 +46,9 @@ public:
             const std::vector<double>& state = reach(found[k]);
             note(found[k], state);
             if (!event_of(found[k]).stop) continue;
-            const double grain = simultaneous(step_start, step_end);
+            const double at_once = simultaneous(step_start, step_end);
             for (std::size_t j = 0; j < found.size(); ++j) {
-                if (std::abs(found[j].time - found[k].time) > grain) continue;
+                if (std::abs(found[j].time - found[k].time) > at_once) continue;
                 if (j > k && found[j].counts) note(found[j], state);
                 motion_.last_zeros.push_back(
                     {.event = found[j].index, .direction = found[j].direction, .counts = found[j].counts});

@@ -5,15 +5,15 @@
 ///
 ///     const Rhs decay = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = -y[0]; });
 ///     const Rhs pendulum = make_rhs(module, {1.0, 9.81});               // parameters in the scene's order
-///     const Rhs driven = make_rhs(module, {}, Work::integrated);        // the scene's own values, one more
-///     component
+///     const Rhs driven = make_rhs(module, {}, Work::integrated);        // own values, and one more component
 ///
 /// The last `extra` components are quadratures. They are integrated with the same stages but left out of error
 /// control, and nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the
 /// work balance. A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if
 /// the function is. If the file has derivatives, `jacobian` writes the dense matrix ∂rate/∂state, column by
-/// column, quadratures included; otherwise it is null, and methods that need it use differences (newton.hpp).
-/// `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no sense.
+/// column, quadratures included; otherwise it is null, and methods that need it use differences
+/// (newton_iteration.hpp). `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count
+/// makes no sense.
 
 #include <concepts>
 #include <memory>
@@ -27,7 +27,7 @@
 
 namespace alembert {
 
-struct Canonical;
+struct HamiltonianSystem;
 
 /// How many times as long as on the processor of cost_model.hpp evaluations and power series take on this one.
 struct Slowness {
@@ -46,8 +46,8 @@ struct Rhs {
     double effort = 0;  ///< about how many ns a call takes, predicted from counts (cost_model.hpp); 0: not known
     Slowness slowness = {};  ///< by which predicted times are multiplied
     Series series = {};      ///< of the motion, for the method taylor; may be missing
-    std::shared_ptr<const Canonical> canonical =
-        {};  ///< momenta and constraints, for the method rattle (hamiltonian.hpp); may be missing
+    std::shared_ptr<const HamiltonianSystem> canonical =
+        {};  ///< momenta and constraints, for the method rattle (hamiltonian_system.hpp); may be missing
     Call energies =
         nullptr;  ///< writes T and V at a state, for regularized runs (time_transformation.hpp); may be missing
     /// Writes the rates of the components that depend on velocities alone, q and the time of a regularized system,

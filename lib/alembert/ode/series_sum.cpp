@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 /// The linear systems (σ − J) x = b with real and complex shifts σ that implicit Runge-Kutta methods solve at each
 /// step.
 ///
-///     Shifted<std::complex<double>> shifted(size);
+///     ShiftedLinearSolver<std::complex<double>> shifted(size);
 ///     shifted.factor(J, second_order(J), mu / h);
 ///     shifted.solve(b, x);                        // lists of `size` numbers
 ///
@@ -37,9 +37,9 @@ inline int second_order(const Eigen::MatrixXd& J) {
 }
 
 template <class Scalar>
-class Shifted {
+class ShiftedLinearSolver {
 public:
-    explicit Shifted(int size)
+    explicit ShiftedLinearSolver(int size)
         : size_(size),
           entries_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
           reciprocal_(size),

@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "alembert/native/cpu_features.hpp"
+#include "alembert/native/registers.hpp"
 
 namespace alembert {
 

@@ -3,7 +3,7 @@
 
 /// Notices that a power series comes to a pose at which its coefficients lose their digits.
 ///
-///     ShrinkingSteps watch;
+///     StepCollapse watch;
 ///     if (watch.shrinks(h, fastest)) …     // for each step that it would take next
 ///
 /// Where a linkage lies flat, pivots of its equations pass through zero, and the steps of a series become a fixed
@@ -14,7 +14,7 @@
 
 namespace alembert {
 
-class ShrinkingSteps {
+class StepCollapse {
 public:
     /// Whether h is a twentieth of the longest length so far, and h times the largest rate a twentieth of its
     /// largest.

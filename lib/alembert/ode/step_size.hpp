@@ -4,13 +4,13 @@
 /// How long the next step should be.
 ///
 ///     StepSize control(8);                        // the error estimate goes with h⁸
-///     h = control.after_accepted(h, misfit / tolerance);
-///     h = control.after_rejected(h, misfit / tolerance);
+///     h = control.after_accepted(h, error_norm / tolerance);
+///     h = control.after_rejected(h, error_norm / tolerance);
 ///
 /// PI control (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554; Hairer & Wanner, Solving ODEs II, §IV.2;
 /// Hairer, Nørsett, Wanner, Solving ODEs I, §II.4):
 ///
-///     h_{n+1} = h_n · 0.8 · ε_n^(−α) · ε_{n−1}^β,   ε = misfit / tolerance,   β = 0.2/k,   α = 1/k − 0.75 β
+///     h_{n+1} = h_n · 0.8 · ε_n^(−α) · ε_{n−1}^β,   ε = error_norm / tolerance,   β = 0.2/k,   α = 1/k − 0.75 β
 ///
 /// limited to between 0.2 and 6 times h, and to at most h after a rejection. k is the order of the estimate: β =
 /// 0.04 for dopri5, as in these books. The factors 0.8 (there 0.9) and 0.2 (there 0 for dop853) were chosen by the

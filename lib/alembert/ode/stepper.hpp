@@ -4,14 +4,15 @@
 /// What the driver (driver.hpp) needs of a stepper: one step of a method after the other, from a state on.
 ///
 ///     step.attempt(t + h);                     // a step that ends there
-///     if (step.misfit() <= tolerance)          // the largest error of a component
+///     if (step.error_norm() <= tolerance)      // the largest error of a component
 ///         if (step.finish())                   // the rate at the end; false: something is not finite
 ///             step.interpolate(0.5, middle);   // the state anywhere in the step, θ = 0…1
 ///     step.advance();                          // the end becomes the start
 ///
 /// `SomeStepper` is what every stepper has; each of the other concepts is an ability that some have, with what the
-/// driver does where it is missing. There are two kinds of steppers: Step (explicit_rk.hpp) of a tableau and
-/// Stepper (formula.hpp) of a formula. The table of methods (method_table.hpp) checks each of its rows.
+/// driver does where it is missing. There are two kinds of steppers: ExplicitRK (explicit_rk.hpp) of a tableau and
+/// FormulaStepper (formula_stepper.hpp) of a formula. The table of methods (method_table.hpp) checks each of its
+/// rows.
 
 #include <concepts>
 #include <functional>
@@ -47,7 +48,7 @@ concept SomeStepper = requires(S step, const S& now, const Rhs& rhs, std::span<c
     { now.starts_finite() } -> std::same_as<bool>;
     { now.worst_component() } -> std::same_as<int>;
     step.attempt(number);
-    { step.misfit() } -> std::same_as<double>;
+    { step.error_norm() } -> std::same_as<double>;
     // Moves the end onto the constraints.
     step.correct(project);
     { step.finish() } -> std::same_as<bool>;
@@ -78,7 +79,7 @@ concept KnowsStableInterval = requires(const S& now) {
     { now.stable_interval() } -> std::same_as<double>;
 };
 
-/// Knows what part of its error estimate may be rounding. For others RoundingWatch finds it (rounding.hpp).
+/// Knows what part of its error estimate may be rounding. For others RoundingWatch finds it (rounding_watch.hpp).
 template <class S>
 concept KnowsRounding = requires(const S& now) {
     { now.rounding() } -> std::same_as<double>;

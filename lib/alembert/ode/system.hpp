@@ -4,15 +4,15 @@
 /// A system as it is integrated: its right-hand side, and what it can do for a method that asks.
 ///
 ///     const Rhs rhs = make_rhs(module, values);
-///     const Trajectory motion = integrate(System{.rhs = rhs, .project = projection.after_steps()}, start,
-///     options);
+///     const System system{.rhs = rhs, .project = projection.after_steps()};
+///     const Trajectory motion = integrate(system, start, options);
 ///
 /// A right-hand side alone is a system too: `integrate(rhs, start, options)`. Which abilities there are, and who
 /// asks for them:
 ///
 /// | ability | asked for by | without it |
 /// | --- | --- | --- |
-/// | rhs.jacobian, with_jacobian | implicit methods | differences (newton.hpp) |
+/// | rhs.jacobian, with_jacobian | implicit methods | differences (newton_iteration.hpp) |
 /// | rhs.series, with_series | taylor | taylor refuses; a run does not go over to it |
 /// | rhs.canonical | rattle, rattle8 | they refuse |
 /// | rhs.energies | a run in a time of its own (time_transformation.hpp) | it refuses |
@@ -27,12 +27,12 @@
 #include <vector>
 
 #include "alembert/ode/events.hpp"
-#include "alembert/ode/input_time_scales.hpp"
-#include "alembert/ode/methods.hpp"
+#include "alembert/ode/input_time_scale.hpp"
+#include "alembert/ode/method.hpp"
 #include "alembert/ode/options.hpp"
-#include "alembert/ode/piece.hpp"
 #include "alembert/ode/quick_places.hpp"
 #include "alembert/ode/rhs.hpp"
+#include "alembert/ode/run_piece.hpp"
 #include "alembert/ode/trajectory.hpp"
 
 namespace alembert {
@@ -59,8 +59,8 @@ struct System {
     std::function<Rhs()> with_series = {};
     double effort_of_series = 0;  ///< the predicted time of that call, ns
     Project project = {};         ///< may be empty
-    /// The times at which steps have to be shorter (input_time_scales.hpp).
-    std::vector<QuickTime> quick_times = {};
+    /// The times at which steps have to be shorter (input_time_scale.hpp).
+    std::vector<InputTimeScale> quick_times = {};
     QuickPlaces quick_places = {};  ///< functions of the state that change fast somewhere (quick_places.hpp)
     OnMethod on_method = {};        ///< may be empty
     Integrator by = {};             ///< integrates it in place of all methods; may be empty

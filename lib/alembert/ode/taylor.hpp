@@ -28,7 +28,7 @@
 #include <memory>
 #include <new>
 
-#include "alembert/ode/formula.hpp"
+#include "alembert/ode/formula_stepper.hpp"
 #include "alembert/ode/missed_feature_check.hpp"
 #include "alembert/ode/series_length.hpp"
 #include "alembert/ode/series_sum.hpp"

@@ -17,7 +17,7 @@ constexpr double clearly = 1.5;  // how much more the run must cost
 }  // namespace
 
 /// Its memory is used for all looks.
-struct SeriesPace::Look {
+struct TaylorSwitch::Look {
     Ends ends;
     Taylor taylor;
 
@@ -33,7 +33,7 @@ struct SeriesPace::Look {
     }
 };
 
-bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
+bool TaylorSwitch::is_worth_making(const Place& here, double effort_per_time) {
     constexpr double gain = 0.5;
     if (!(gain * effort_per_time * here.left > effort_of_making_)) return false;
     rhs_ = make_ ? &made_.emplace(make_()) : &given_;
@@ -48,7 +48,7 @@ bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
     return here.spent >= until_;
 }
 
-bool SeriesPace::finds_cheaper(const Place& here, double effort_per_time) {
+bool TaylorSwitch::finds_cheaper(const Place& here, double effort_per_time) {
     if (pause_-- > 0 || !(effort_per_time > 0) || here.spent < until_) return false;
     if (!rhs_ && !is_worth_making(here, effort_per_time)) return false;
     if (!look_) {

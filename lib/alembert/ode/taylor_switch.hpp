@@ -4,7 +4,7 @@
 /// Finds out during a run of an explicit method whether a power series would be cheaper, from the lengths of the
 /// steps that either would take at the same states.
 ///
-///     SeriesPace watch(rhs, with_series, effort_of_making, tolerance);
+///     TaylorSwitch watch(rhs, with_series, effort_of_making, tolerance);
 ///     watch.finds_cheaper({.t = t, .y = y, .h = h, .spent = effort, .left = end - t}, effort_per_time);
 ///
 /// `with_series` gives the same system with its series, if it has one; if empty, `rhs` is taken. Nothing is done
@@ -24,10 +24,10 @@
 
 namespace alembert {
 
-class SeriesPace {
+class TaylorSwitch {
 public:
     /// `rhs` must live as long as this.
-    SeriesPace(const Rhs& rhs, std::function<Rhs()> with_series, double effort_of_making, double tolerance)
+    TaylorSwitch(const Rhs& rhs, std::function<Rhs()> with_series, double effort_of_making, double tolerance)
         : given_(rhs), make_(std::move(with_series)), effort_of_making_(effort_of_making), tolerance_(tolerance) {}
 
     /// The end of a step.

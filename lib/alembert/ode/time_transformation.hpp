@@ -15,8 +15,8 @@
 ///     canonical   dq/ds = v g(T + B),      dt/ds = g(T + B),      dv/ds = a g(U)     q' = v, M v' = −∂V/∂q
 ///
 /// The second is the canonical system of Γ = G(T + B) − G(U) with G' = g, which is zero along the motion, for a
-/// constant M. Its q and t change by v alone and its v by q alone, so that splitting methods stay explicit (the
-/// Composition of symplectic.hpp); implicit symplectic methods stay symplectic too.
+/// constant M. Its q and t change by v alone and its v by q alone, so that splitting methods stay explicit
+/// (symplectic_composition.hpp); implicit symplectic methods stay symplectic too.
 ///
 /// γ = 1, a logarithmic Γ, for verlet, which then follows two bodies that attract each other as 1/r on their exact
 /// orbit, with an error in the time alone, and for methods that choose their steps. γ = 3/2 for the other methods

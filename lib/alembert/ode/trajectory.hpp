@@ -30,7 +30,7 @@ enum class FailureKind {
     no_contact_mode,  ///< contacts that cannot all stay closed or open (hybrid_motion.hpp)
     endless_kicks,    ///< impulses of events after which there are no rates, or infinitely many in a finite time
                       ///< (hybrid_motion.hpp)
-    no_side           ///< a sign in the right-hand side has no consistent value, or more than one (filippov.hpp)
+    no_side  ///< a sign in the right-hand side has no consistent value, or more than one (filippov_system.hpp)
 };
 
 struct Failure {

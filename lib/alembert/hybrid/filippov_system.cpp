@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/hybrid/filippov_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "alembert/hybrid/automaton.hpp"
+#include "alembert/hybrid/mode_guard.hpp"
+#include "alembert/hybrid/side_choice.hpp"
+#include "alembert/hybrid/sliding_field.hpp"
+#include "alembert/hybrid/switching_scales.hpp"
+#include "alembert/ode/disturbance.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int most_undecided = 6;  // the most signs that may be undecided together: at most 3⁶ choices are tried
+constexpr double most_gathered = 1e3;     // times the error of a step, which a motion has gathered at most
+constexpr int most_in_one_place = 50;     // the most changes without an advance of time
+constexpr double negative_normal = 1e-6;  // relative to the largest so far, beyond doubt
+
+class SwitchedRun {
+public:
+    SwitchedRun(const FilippovSystem& system, const System& abilities, const std::vector<double>& initial,
+                const Options& options, const Events& events, const RunPiece& piece)
+        : system_(system),
+          abilities_(abilities),
+          options_(options),
+          events_(events),
+          piece_(piece),
+          now_{.t = options.start, .state = initial, .late = piece.late},
+          sizes_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))),
+          normals_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))) {}
+
+    Trajectory go() {
+        if (begin() && begin_piece()) run_modes(*this, options_, piece_);
+        return std::move(result_);
+    }
+
+    MotionState& now() { return now_; }
+
+    /// The piece with the sides of now, until a sign changes.
+    Mode enter(Options rest, RunPiece piece) {
+        *undefined_ = HUGE_VAL;
+        watched_ = mode_guards(*at_, {now_.t, options_.start + options_.duration}, *sizes_);
+        const bool slides = !at_->sliding().empty();
+        System system = abilities_;
+        system.rhs = right_hand_side();
+        system.with_jacobian = {};
+        system.with_series = {};
+        rest.when_cheaper = {};  // the series of a piece is another one
+        if (slides && needs_series(rest.method)) rest.method = Method::verner98;
+        const auto has_smoothing = [](const FilippovMode::Slide& slide) { return slide.smoothing > 0; };
+        if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_smoothing))
+            rest.when_stiff = {};  // long steps of radau go wrong in the direction that δ bends at low speeds
+        if (slides)
+            system.project = [base = abilities_.project, sides = std::make_shared<SlidingField>(
+                                                             system_, sides_, dimension())](double t, double* y) {
+                if (base) base(t, y);
+                sides->bring_back(t, y);
+            };
+        rest.on_step = [this](double t, std::span<const double> y, std::span<const double> rate) {
+            if (system_.before_step) {
+                if (!at_->sliding().empty()) at_->evaluate(t, y.data());
+                system_.before_step(at_->sigma());
+            }
+            if (options_.on_step) options_.on_step(t, y, rate);
+        };
+        grid_ = *piece.grid;
+        return {.system = std::move(system),
+                .guards = with_watches(watched_),
+                .own = static_cast<int>(watched_.size()),
+                .run = &events_,
+                .options = std::move(rest),
+                .piece = std::move(piece)};
+    }
+
+    void collect(Trajectory part) {
+        if (result_.times.empty())
+            result_ = std::move(part);
+        else
+            append(result_, std::move(part), grid_, sample_interval(options_));
+    }
+
+    bool next_mode(const Hit& hit) {
+        if (result_.ending != Ending::stopped_by_event || hit.stops) return false;
+        result_.ending = Ending::completed;
+        if (options_.disturbed.seed == 0) return pass(watched_, hit.guards) && begin_piece();
+        const std::vector<double> before = rate_here();
+        if (!pass(watched_, hit.guards)) return false;
+        const std::vector<double> after = rate_here();
+        now_.late = late_by_rounding(options_.disturbed.seed,
+                                     {.t = now_.t, .number = jumps_++, .before = before, .after = after});
+        return begin_piece();
+    }
+
+    std::string changes() const { return {}; }
+
+private:
+    int dimension() const { return static_cast<int>(now_.state.size()); }
+    SwitchingScales moment() const { return {system_, sides_, now_.t, now_.state, options_, *sizes_}; }
+    double value_of(int k) const { return moment().value(k); }
+
+    /// Determines the sides at the start.
+    bool begin() {
+        sides_ = system_.start();
+        std::vector<int> open;
+        bool is_defined = true;
+        for (int k = 0; k < system_.count(); ++k) {  // a function may contain the signs of those before it
+            const double g = value_of(k);
+            is_defined = is_defined && std::isfinite(g);
+            (*sizes_)[k] = std::abs(g);
+            if (sides_.is_pair(k)) {
+                if (k % 2 == 1 && !direct(k - 1, moment().still(k - 1))) open.push_back(k - 1);
+            } else if (g == 0)
+                open.push_back(k);
+            else
+                sides_[k] = g > 0 ? 1 : -1;
+        }
+        result_.dimension = dimension();
+        if (is_defined && (options_.duration == 0 || choose(open))) return true;
+        if (!is_defined) fail_undefined();
+        return false;
+    }
+
+    /// Lets a pair slide in the direction of its velocity; false if that is not above `least`.
+    bool direct(int pair, double least) {
+        const double v = value_of(pair), w = value_of(pair + 1), speed = std::hypot(v, w);
+        if (!(speed > least)) return false;
+        sides_[pair] = sides_[pair + 1] = 1;
+        sides_.slides[pair / 2] = {v / speed, w / speed, 0};
+        return true;
+    }
+
+    /// Updates the signs of functions that contain other signs, after some of these have changed.
+    void follow_others(const std::vector<int>& decided) {
+        for (int k = 0; k < system_.count(); ++k) {
+            if (sides_[k] == 0 || sides_.is_pair(k) ||
+                std::find(decided.begin(), decided.end(), k) != decided.end())
+                continue;
+            const double g = value_of(k);
+            if (std::abs(g) > 1e-9 * (*sizes_)[k] && sides_[k] * g < 0) sides_[k] = -sides_[k];
+        }
+    }
+
+    bool fail_undefined() {
+        fail(fmt::format("a function whose sign is needed is not a number at t = {}", now_.t));
+        result_.failure->kind = FailureKind::not_a_number;
+        return false;
+    }
+
+    bool fail_negative(int k) { return fail(system_.refusal(k, now_.t, now_.state.data())); }
+
+    /// Looks at the sides of now, with which the next piece begins; false if a normal force is negative.
+    bool begin_piece() {
+        SlidingField& at = at_.emplace(system_, sides_, dimension());
+        at.evaluate(now_.t, now_.state.data());
+        at.find_bounds(now_.t, now_.state.data());
+        for (int k = 0; k < system_.count(); ++k) {
+            (*normals_)[k] = std::max((*normals_)[k], std::abs(at.normal(k)));
+            if (at.normal(k) < -std::max(negative_normal * (*normals_)[k], moment().uncertain_normal(at, k)))
+                return fail_negative(k);
+            if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(at.value(k)));
+        }
+        return true;
+    }
+
+    /// The rates with the sides of now.
+    std::vector<double> rate_here() const {
+        SlidingField now(system_, sides_, dimension());
+        now.evaluate(now_.t, now_.state.data());
+        return {now.rate().begin(), now.rate().end()};
+    }
+
+    Rhs right_hand_side() const {
+        if (std::find(sides_.of.begin(), sides_.of.end(), 0) == sides_.of.end())
+            return system_.smooth(system_.sigma(sides_));
+        const Rhs any = system_.smooth(system_.sigma(system_.start()));
+        auto sides = std::make_shared<SlidingField>(system_, sides_, dimension());
+        Rhs rhs = make_rhs(
+            dimension(),
+            [sides](double t, const double* y, double* rate) {
+                sides->evaluate(t, y);
+                std::copy(sides->rate().begin(), sides->rate().end(), rate);
+            },
+            any.extra);
+        rhs.names = any.names;
+        return rhs;
+    }
+
+    Events with_watches(const std::vector<ModeGuard>& watched) const {
+        std::vector<Event> list = events_.list;
+        for (const ModeGuard& w : watched)
+            list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
+        auto sides = std::make_shared<SlidingField>(system_, sides_, dimension());
+        const auto values = [this, watched, sides, undefined = undefined_, sizes = sizes_, normals = normals_](
+                                double t, const double* y, const double* rate, double* out) {
+            sides->evaluate(t, y);
+            sides->find_bounds(t, y);
+            if (!events_.list.empty()) {
+                if (system_.before_step) system_.before_step(sides->sigma());
+                events_(t, y, rate, out);
+            }
+            for (std::size_t k = 0; k < sizes->size(); ++k) {
+                (*sizes)[k] = std::max((*sizes)[k], std::abs(sides->value(static_cast<int>(k))));
+                (*normals)[k] = std::max((*normals)[k], std::abs(sides->normal(static_cast<int>(k))));
+            }
+            for (std::size_t i = 0; i < watched.size(); ++i) {
+                const ModeGuard& w = watched[i];
+                double& value = out[events_.list.size() + i];
+                value = guard_value(w, t, *sides, *normals);
+                if (!std::isnan(value)) continue;
+                *undefined = std::min(*undefined, t);  // the run ends there if it comes so far
+                value = -1;
+            }
+        };
+        Events result = make_events(std::move(list), values);
+        result.bounds = bounds_with(watched);
+        return result;
+    }
+
+    /// While a function slides, its σ changes within a step, and bounds for one σ say nothing.
+    EventBounds bounds_with(const std::vector<ModeGuard>& watched) const {
+        if (std::find(sides_.of.begin(), sides_.of.end(), 0) != sides_.of.end()) return {};
+        const int scene = static_cast<int>(events_.list.size());
+        const auto one = [scene, watched](int k) { return watched[static_cast<std::size_t>(k - scene)]; };
+        return {.exist =
+                    [=, this](int k) {
+                        if (k < scene) return events_.bounds.has(k);
+                        return one(k).what == ModeGuard::What::side &&
+                               system_.bounds_of_functions.has(one(k).index);
+                    },
+                .of =
+                    [=, this](int k, const MotionBounds& motion) {
+                        if (k < scene) return events_.bounds.of(k, motion);
+                        const ModeGuard w = one(k);
+                        Bounds of = w.sign * system_.bounds_of_functions.of(w.index, motion);
+                        of.value = of.value + Interval{w.held.bound, w.held.bound};
+                        return of;
+                    }};
+    }
+
+    /// Decides how the motion goes on where the functions watched at `hit` have reached zero.
+    bool pass(const std::vector<ModeGuard>& watched, const std::vector<int>& hit) {
+        // A step may reach beyond the zero that ends it, to where another value is undefined.
+        if (*undefined_ <= now_.t + 1e-12 * std::max(std::abs(now_.t), options_.duration)) return fail_undefined();
+        since_change_ = now_.t - last_change_;
+        in_one_place_ =
+            since_change_ > 1e-13 * std::max(std::abs(now_.t), options_.duration) ? 0 : in_one_place_ + 1;
+        last_change_ = now_.t;
+        if (in_one_place_ > most_in_one_place)
+            return fail(fmt::format("the sign of {} changes without end at t = {}: no side of it is consistent",
+                                    system_.names[watched[hit.front()].index], now_.t));
+        std::vector<int> open;
+        bool gone = false;
+        for (const int i : hit) {
+            const ModeGuard& w = watched[i];
+            if (w.what == ModeGuard::What::normal) return fail_negative(w.index);
+            if (w.what == ModeGuard::What::bound) {  // α has reached a bound: the motion leaves to that side
+                gone = true;
+                if (!sides_.is_pair(w.index)) {
+                    sides_[w.index] = w.sign < 0 ? 1 : -1;
+                    tell(w.index, ModeChange::Kind::leaving);
+                } else if (sides_[w.index] == 0) {  // it may have given way together with one before it
+                    for (const int pair : give_way(system_, sides_, w.index, now_.t, now_.state)) {
+                        seed(pair);
+                        tell(pair, ModeChange::Kind::leaving);
+                    }
+                }
+            } else if (w.what == ModeGuard::What::smoothing) {
+                direct(w.index, 0);
+            } else if (w.what == ModeGuard::What::turn && direct(w.index, moment().stopped(w.index))) {
+                continue;
+            } else if (std::find(open.begin(), open.end(), w.index) == open.end()) {
+                open.push_back(w.index);
+            }
+        }
+        if (!open.empty()) open_what_has_stopped(open);
+        if (!open.empty() && !gone && come_to_rest(open)) return true;
+        if (!open.empty() ||
+            (gone && system_.bounds)) {  // a contact that has opened may change the normal forces of others
+            for (int k = 0; k < system_.count(); ++k)
+                if (sides_[k] == 0 && !(sides_.is_pair(k) && k % 2 == 1)) open.push_back(k);
+            if (!choose(open)) return false;
+        }
+        std::vector<int> decided = open;
+        for (const int i : hit) decided.push_back(watched[i].index);
+        follow_others(decided);
+        return true;
+    }
+
+    /// Adds the frictions that slide without a velocity: of the feet of a body that stops as a whole rounding may
+    /// have let one go just before, or let it stop just after.
+    void open_what_has_stopped(std::vector<int>& open, double times = 1) const {
+        SlidingField here(system_, sides_, dimension());
+        here.evaluate(now_.t, now_.state.data());
+        for (int k = 0; k < system_.count(); k += sides_.is_pair(k) ? 2 : 1) {
+            if (!sides_.is_pair(k) && !system_.bounds) continue;  // no friction
+            const double speed = sides_.is_pair(k) ? here.velocity(k).norm() : std::abs(here.value(k));
+            if (sides_[k] != 0 && std::find(open.begin(), open.end(), k) == open.end() &&
+                speed <= times * moment().stopped(k) && (sides_.is_pair(k) || moment().brakes(k)))
+                open.push_back(k);
+        }
+    }
+
+    /// Lets the open functions and those that rest stay zero if they can: where friction stops a mass at the
+    /// bottom of a groove |x|, sign(x) and sign(x') have changed ever faster.
+    bool come_to_rest(const std::vector<int>& open) {
+        const std::vector<int> still = swings_.at_rest(moment(), open, since_change_);
+        if (still.empty() || open.size() + still.size() > most_undecided) return false;
+        const SideChoice best = side_choices(system_, sides_, open, now_.t, now_.state, still)[0];
+        if (!best.is_clear() || !rests(best, open)) return false;
+        sides_ = best.sides;
+        SlidingField here(system_, sides_, dimension());
+        for (const int k : still) here.bring_to_zero(k, now_.t, now_.state.data());
+        std::vector<int> all = open;
+        all.insert(all.end(), still.begin(), still.end());
+        for (const int k : as_declared(std::move(all))) tell(k, ModeChange::Kind::sliding);
+        return true;
+    }
+
+    /// Rounding decides which of several functions that become zero at once is found first.
+    static std::vector<int> as_declared(std::vector<int> functions) {
+        std::sort(functions.begin(), functions.end());
+        return functions;
+    }
+
+    static bool rests(const SideChoice& choice, const std::vector<int>& all) {
+        return std::all_of(all.begin(), all.end(), [&](int k) { return choice.sides[k] == 0; });
+    }
+    bool can_all_rest(const std::vector<int>& all) const {
+        if (all.size() > most_undecided) return false;
+        const SideChoice best = side_choices(system_, sides_, all, now_.t, now_.state)[0];
+        return best.is_clear() && rests(best, all);
+    }
+
+    /// Chooses sides for the open functions; the others keep theirs.
+    bool choose(const std::vector<int>& open) {
+        if (open.empty()) return true;
+        if (open.size() > most_undecided)
+            return fail(
+                fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
+                            system_.names[open.front()], open.size() - 1, now_.t, most_undecided));
+        const std::vector<SideChoice> found = side_choices(system_, sides_, open, now_.t, now_.state);
+        std::string names;
+        for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
+        const bool exists = found[0].is_consistent();
+        if (!exists || !rests(found[0], open)) {
+            std::vector<int> more = open;  // one that has stopped, too, may have gathered the errors of many steps
+            open_what_has_stopped(more, most_gathered);
+            if (more.size() > open.size() && (!exists || can_all_rest(more))) return choose(more);
+        }
+        if (!exists)
+            return fail(
+                fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
+                            "that goes on from there",
+                            now_.t, names));
+        if (are_ambiguous(found))
+            return fail(
+                fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
+                            "say which; start close to that state instead",
+                            now_.t, names));
+        const FilippovMode before = sides_;
+        sides_ = found[0].sides;
+        for (const int k : open)
+            if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
+        for (const int k : as_declared(open))
+            if (before[k] != sides_[k] &&
+                (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet
+                tell(k, sides_[k] == 0   ? ModeChange::Kind::sliding
+                        : before[k] == 0 ? ModeChange::Kind::leaving
+                                         : ModeChange::Kind::crossing);
+        return true;
+    }
+
+    /// Gives a pair that begins to slide its δ (filippov_system.hpp).
+    void seed(int pair) {
+        double& smoothing = sides_.slides[pair / 2].smoothing;
+        smoothing =
+            std::max(smoothing, moment().speed(pair) * std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
+    }
+
+    void tell(int k, ModeChange::Kind kind) const {
+        if (!system_.on_change) return;
+        ModeChange change{.time = now_.t, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
+        if (sides_.is_pair(k) && sides_[k] != 0)
+            change.direction = {sides_.slides[k / 2].along, sides_.slides[k / 2].across};
+        system_.on_change(change);
+    }
+
+    bool fail(const std::string& message) {
+        if (result_.times.empty()) {
+            result_.times = {now_.t};
+            result_.states = now_.state;
+            result_.statistics.method = name(options_.method);
+        }
+        result_.ending = Ending::failed;
+        result_.failure =
+            Failure{.kind = FailureKind::no_side, .message = message, .time = now_.t, .state = now_.state};
+        return false;
+    }
+
+    const FilippovSystem& system_;
+    const System& abilities_;
+    const Options& options_;
+    const Events& events_;
+    const RunPiece& piece_;
+    MotionState now_;
+    FilippovMode sides_;
+    std::optional<SlidingField> at_ = {};  ///< the sides of now, at the start of the piece and then along it
+    std::vector<ModeGuard> watched_ = {};  ///< the guards of the piece
+    double grid_ = 0;
+    std::shared_ptr<std::vector<double>> sizes_;                              ///< the largest |g_k| so far
+    std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
+    std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
+    ChatterWatch swings_{sizes_->size()};
+    long jumps_ = 0;  ///< in a disturbed run
+    int in_one_place_ = 0;
+    double last_change_ = -HUGE_VAL,
+           since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before
+    Trajectory result_;
+};
+
+}  // namespace
+
+Trajectory integrate(const FilippovSystem& system, const System& abilities, const std::vector<double>& initial,
+                     const Options& options, const Events& events, const RunPiece& piece) {
+    return SwitchedRun(system, abilities, initial, options, events, piece).go();
+}
+
+Trajectory integrate(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
+                     const Events& events) {
+    return integrate(system, System{}, initial, options, events);
+}
+
+}  // namespace alembert
