@@ -13,6 +13,7 @@
 #include "check/claim_arithmetic.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
+#include "check/phrase_tree.hpp"
 #include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
 #include "model/formalism/rest.hpp"
@@ -105,12 +106,21 @@ private:
         if (is_at_rest && (has_primes(*repaired.equation.lhs.tree) || has_primes(*repaired.equation.rhs.tree)))
             return false;
         try {
-            return holds_quickly(claims_.read(repaired), asked_.at_impact || speaks_of_scene(repaired, m_));
+            const bool may_be_identity =
+                asked_.at_impact || speaks_of_scene(repaired, m_) || differentiates(repaired);
+            return holds_quickly(claims_.read(repaired), may_be_identity);
         } catch (const SceneMistake&) {
             return false;
         } catch (const std::exception&) {  // it divides by zero, for instance
             return false;
         }
+    }
+
+    /// Whether it says what the derivative of something is that changes.
+    bool differentiates(const Claim& claim) {
+        for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs})
+            if (has_derivative(*side->tree) && !m_.z->expand(claims_.read(*side)).is_zero()) return true;
+        return false;
     }
 
     bool vanishes(const Expression& value) {
@@ -133,11 +143,8 @@ private:
         return std::nullopt;
     }
 
-    /// States with which changed claims are compared, where the claim can be evaluated.
-    std::vector<ModularPoint> points() {
-        const bool many = states_.motions.where() == Motions::At::rest ||
-                          (states_.get(0) != nullptr && states_.get(0)->branches > 1);
-        const std::size_t wanted = many ? 8 : 3;
+    /// States at which the claim can be evaluated; 3 or, of several branches, 8 are enough.
+    std::vector<ModularPoint> points(std::size_t wanted) {
         std::vector<ModularPoint> result;
         Program p;
         const std::vector<int> root = claims_.lower(p, {form_.residual});
@@ -146,16 +153,28 @@ private:
         return result;
     }
 
+    /// With changed claims, of which each name needs a value: the v of v² = … may have none where v² has one.
     std::optional<ClaimArithmetic> arithmetic_of_claim() {
         const std::optional<int> derivative = free_derivative();
         if (form_.third || !derivative) return std::nullopt;
-        std::optional<ClaimArithmetic> result(std::in_place, claims_, claim_, points(), *derivative,
+        const bool many = states_.motions.where() == Motions::At::rest ||
+                          (states_.get(0) != nullptr && states_.get(0)->branches > 1);
+        const std::size_t wanted = many ? 8 : 3;
+        std::vector<ModularPoint> usable;
+        for (const std::size_t tried : {wanted, 5 * wanted}) {
+            const std::vector<ModularPoint> all = points(tried);
+            std::optional<ClaimArithmetic> result(std::in_place, claims_, claim_, all, *derivative,
+                                                  form_.open.empty());
+            usable.clear();
+            for (std::size_t k = 0; k < all.size() && usable.size() < wanted; ++k)
+                if (result->residual(*claim_.equation.lhs.tree, *claim_.equation.rhs.tree, k))
+                    usable.push_back(all[k]);
+            if (!all.empty() && usable.size() == all.size()) return result;
+            if (usable.size() == wanted) break;
+        }
+        if (usable.empty()) return std::nullopt;
+        return std::optional<ClaimArithmetic>(std::in_place, claims_, claim_, std::move(usable), *derivative,
                                               form_.open.empty());
-        const auto own = result->points() == 0
-                             ? std::nullopt
-                             : result->residual(*claim_.equation.lhs.tree, *claim_.equation.rhs.tree, 0);
-        if (!own) result.reset();
-        return result;
     }
 
     /// The node of `value`. Returns nothing if the expression cannot be translated or contains open names.

@@ -65,6 +65,11 @@ bool is_accelerated(const Tree& tree) {
            std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& a) { return is_accelerated(*a); });
 }
 
+bool has_derivative(const Tree& tree) {
+    return tree.kind == Kind::derivative ||
+           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& a) { return has_derivative(*a); });
+}
+
 bool ClaimWords::is_steady(const Tree& tree) const {
     if (tree.kind == Kind::name) return is_parameter(tree.text) || tree.text == "pi";
     if (tree.kind == Kind::derivative || is_of_geometry(tree)) return false;
@@ -304,9 +309,12 @@ void Edits::factors(const Summand& s) {
         list.push_back(std::move(edit));
     };
     if (s.body->kind == Kind::number) return;
+    const ProductTree own(s.body, steady_);
     for (const std::string& name : words_.parameters) {
         const bool is_length = words_.lengths.contains(name);
         const TreePtr base = name_tree(name);
+        if (const int there = own.exponent_of(base); std::abs(there) > 1)  // n^2 for 1/n^2
+            times(base, -2 * there, "factor", of_factor + 0.1);
         for (const int exponent : {-1, 1})
             times(base, exponent, is_length ? "wrong_arm" : "factor", of_parameter - (is_length ? 0.05 : 0));
     }
@@ -347,6 +355,7 @@ void Edits::leaves(const TreePtr& tree, std::size_t number, bool is_power_base) 
             return terms_of(tree->args[0], s.left, s.in_angle, true);
         case Kind::sum:
             steady_sum(tree, number);
+            dots(tree, number);
             return terms_of(tree, s.left, s.in_angle, s.in_derivative);
         default:
             for (const TreePtr& arg : tree->args) leaves(arg, number, false);
@@ -428,6 +437,44 @@ void Edits::steady_sum(const TreePtr& tree, std::size_t number) {
             const TreePtr more = minus ? made(Kind::negate, {term}) : term;
             list.push_back(with_inner_term(s, tree, more, of_inner_term + (minus ? 0.1 : 0)));
         }
+    }
+}
+
+/// c·(x' − y') for c·(x − y), and the other way.
+void Edits::dots(const TreePtr& tree, std::size_t number) {
+    const Summand s = summands[number];
+    if (s.in_angle || tree == side(s.left)) return;
+    for (const int more : {1, -1}) {
+        const TreePtr by = with_dots(tree, more);
+        if (!by) continue;
+        list.push_back(
+            named(with_part_of(s, tree.get(), by, "lost_dot", of_dot), plain_text_of(*tree), plain_text_of(*by)));
+    }
+}
+
+/// A sum of rates of one order, each perhaps with a steady factor, with more dots; null if it is none.
+TreePtr Edits::with_dots(const TreePtr& tree, int more) const {
+    switch (tree->kind) {
+        case Kind::name: {
+            const int primes = tree->primes + more;
+            return words_.has_rate(tree->text) && primes >= 0 && primes <= 2 ? name_tree(tree->text, primes)
+                                                                             : nullptr;
+        }
+        case Kind::sum:
+        case Kind::negate:
+        case Kind::product: {
+            std::vector<TreePtr> args;
+            std::size_t moving = 0;
+            for (const TreePtr& arg : tree->args) {
+                const bool is_factor = tree->kind == Kind::product && words_.is_steady(*arg);
+                args.push_back(is_factor ? detached(arg) : with_dots(arg, more));
+                if (!args.back()) return nullptr;
+                if (!is_factor) ++moving;
+            }
+            return tree->kind == Kind::product && moving != 1 ? nullptr : made(tree->kind, std::move(args));
+        }
+        default:
+            return nullptr;
     }
 }
 

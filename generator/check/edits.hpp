@@ -112,6 +112,8 @@ private:
     void power(const TreePtr& tree, std::size_t summand);
     void turn(const TreePtr& tree, std::size_t summand);
     void steady_sum(const TreePtr& tree, std::size_t summand);
+    void dots(const TreePtr& tree, std::size_t summand);
+    TreePtr with_dots(const TreePtr& tree, int more) const;
 
     const Claim& claim_;
     const ClaimWords& words_;
@@ -124,5 +126,8 @@ private:
 
 /// Whether an acceleration stands in it.
 bool is_accelerated(const Tree& tree);
+
+/// Whether a time derivative is written out in it.
+bool has_derivative(const Tree& tree);
 
 }  // namespace alembert

@@ -43,6 +43,7 @@ public:
             const std::vector<Edit> needed = needed_factors(claim_, edits_, words_, m_, *judge_.arithmetic);
             parts.insert(parts.end(), needed.begin(), needed.end());
         }
+        add_lost_derivative(parts);
         add_own_terms(parts);
         const std::optional<Found> found = smallest(parts);
         if (found && found->size < of_missing_term) return found->repair;
@@ -228,6 +229,16 @@ private:
     }
 
     // Whole terms
+
+    /// (m r² θ')' = m r² θ'': a term of the product rule.
+    void add_lost_derivative(std::vector<Edit>& edits) const {
+        constexpr std::size_t most_terms = 200;
+        if (!has_derivative(*claim_.equation.lhs.tree) && !has_derivative(*claim_.equation.rhs.tree)) return;
+        const auto wrong = fourier(m_.z->expand(residual_), *m_.symbols, most_terms);
+        if (!wrong || wrong->size() != 1) return;
+        const TreePtr term = tree_of(readable(Rational(-1) * *wrong));
+        edits.push_back(edits_.with_term(term, is_accelerated(*term), of_own_term - 0.1));
+    }
 
     void add_own_terms(std::vector<Edit>& edits) const {
         if (const auto nearest = nearest_equation(residual_, m_, e_)) {

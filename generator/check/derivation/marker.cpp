@@ -126,6 +126,20 @@ void Marker::run() {
     }
 }
 
+/// Rest, small motions, a start, values of parameters, a place, a single motion: after these a formula need not be
+/// about all motions.
+bool Marker::assumes() const {
+    const bool is_of_state = says_rest() || heard_.roots || heard_.no_accelerations || heard_.steady_lines > 0;
+    const bool is_of_case =
+        heard_.condition_lines > 0 || heard_.condition_behind || !special_.empty() || !stated_place_.empty();
+    const bool is_near = heard_.small || heard_.approximate_lines > 0 || heard_.frequency || heard_.period;
+    const bool is_of_motion = heard_.start_from_rest || heard_.mentioned_impact || !motion_letters_.empty();
+    const bool has_left_scene = std::any_of(lines.begin(), lines.end(), [](const MarkedLine& line) {
+        return line.status == LineStatus::not_about_scene;
+    });
+    return is_of_state || is_of_case || is_near || is_of_motion || has_left_scene;
+}
+
 void Marker::line(std::size_t s, std::size_t k) {
     const Math &lhs = *statement_->sides[k], &rhs = *statement_->sides[k + 1];
     MarkedLine line{.status = LineStatus::undecided, .statement = s};
@@ -145,6 +159,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     }
     relation_ = statement_->relations[k];
     heard_.small = heard_.small || relation_ == Relation::approximately;
+    has_assumed_ = has_assumed_ || assumes();
     is_judging_ = true;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);

@@ -42,6 +42,8 @@ struct LineNotes {
     LineClaim claim = {};  ///< empty where there is none
     ClaimText left = {}, right = {};
     bool is_sure = false;                    ///< whether a mistake has been judged for what the words say
+    bool has_assumed = false;                ///< whether words or lines above speak of special states or cases
+    bool is_of_rest = false;                 ///< whether the words are about rest
     bool alone_is_quantity = false;          ///< as in ClaimWriting
     bool rates_are_speeds = false;           ///< likewise
     bool slopes_are_of_motion = false;       ///< likewise
@@ -83,6 +85,7 @@ private:
     using Components = std::vector<MathPtr>;
 
     void find_effective_potentials();
+    bool assumes() const;
     void line(std::size_t statement, std::size_t side);
     void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
     bool is_of_motion(const Math& side) const;
@@ -293,6 +296,11 @@ private:
     bool speaks_of_quantity(const LineNotes& notes) const;
     std::map<std::string, GiNaC::ex> known_in_motion() const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
+    void find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
+    void seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
+    int order_of(const LineClaim& claim);
+    bool has_one_reading(std::size_t k) const;
+    bool holds_parameter(const LineClaim& claim);
     void withhold_unexplained(std::size_t k);
     void name_held(MarkedLine& line) const;
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
@@ -338,6 +346,7 @@ private:
     bool is_of_case_ = false;        ///< whether what was found last at rest is of special values
     std::set<Letter> rest_letters_;  ///< those of which a line has shown that they are values at rest
     bool is_state_wrong_ = false;    ///< whether one of these lines was wrong
+    bool has_assumed_ = false;       ///< as in LineNotes
     bool is_judging_ = false;        ///< whether a line is being judged, and not its words heard
     bool is_taken_there_ = false;    ///< U''(r) for U''(r_0): its coordinates are those of the state
     std::set<std::string> rounded_;  ///< names of letters that are written with decimals, ω_1 = 0.618 ω_0

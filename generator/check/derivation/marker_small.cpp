@@ -76,6 +76,7 @@ bool Marker::is_frequency_at_rest(MarkedLine& line, const Math& letter, const Ma
         : holds ? say("a frequency of small vibrations about {}", say("a state of rest found in numbers"))
         : line.follows_from ? say("it follows from line {}", lines[*line.follows_from].line)
                             : say("it is no frequency of small vibrations");
+    notes_.back().is_sure = line.status == LineStatus::mistake && statement_->displayed;
     line.claim =
         identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + claim_text(rhs, as_written()).text;
     notes_.back().claim = {};
@@ -161,6 +162,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
         line.status = line.follows_from ? LineStatus::follows : LineStatus::mistake;
         line.reason = line.follows_from ? say("it follows from line {}", lines[*line.follows_from].line)
                                         : say("it is no frequency of small vibrations");
+        notes_.back().is_sure = !line.follows_from && statement_->displayed;
     }
     const LineStatus status = line.status;
     const std::string reason = line.reason;

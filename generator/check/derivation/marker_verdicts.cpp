@@ -130,7 +130,11 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
         return;
     }
     line.status = LineStatus::mistake;
+    notes_.back().has_assumed = has_assumed_;
+    notes_.back().is_of_rest = says_rest();
     if (heard_.small) notes_.back().near = near_;
+    if (heard_.small && !near_ && order_of(notes_.back().claim) == 2)
+        notes_.back().near = base_states(system_.scene()).front();
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
 }
 

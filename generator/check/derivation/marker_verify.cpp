@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/language/say.hpp"
+#include "check/derivation/explanation.hpp"
 #include "check/written/words.hpp"
 
 namespace alembert {
@@ -59,27 +60,94 @@ void Marker::verify() {
         }
         adopt(lines[asked[i]], notes, std::move(verdicts[i]));
         MarkedLine& line = lines[asked[i]];
-        const bool unknown = !line.checked.likely || line.checked.likely->kind == "unknown";
-        if (line.status != LineStatus::mistake || !unknown) continue;
-        if (notes.near) {
-            CheckedClaim near = line.checked;
-            near.likely = slip_near(notes.claim, *notes.near, system_, known);
-            if (near.likely) adopt(line, notes, std::move(near));
-            continue;
-        }
-        if (notes.own.empty()) continue;
-        // A second slip is one against what the derivation itself had before.
-        std::vector<CheckedClaim> own = verdicts_on({notes.claim}, notes.own, system_);
-        if (!own[0].likely || own[0].likely->kind == "unknown") continue;
-        adopt(line, notes, std::move(own[0]));
+        if (line.status == LineStatus::mistake) find_slip(line, notes, known);
     }
     for (std::size_t k = 0; k < lines.size(); ++k) withhold_unexplained(k);
     if (held_.empty()) return;
     for (MarkedLine& line : lines) name_held(line);
 }
 
-/// A formula among words that fails, and that no small change makes right, is more often meant otherwise than
-/// wrong. Then nothing follows from it either.
+/// tan θ = 1/2 speaks of special values.
+bool Marker::holds_parameter(const LineClaim& claim) {
+    const Mechanism& m = system_.mechanism();
+    std::vector<GiNaC::symbol> parameters;
+    for (const Mechanism::Parameter& p : m.parameters) parameters.push_back(p.symbol);
+    return m.z->depends(truth_.value(claim.lhs) - truth_.value(claim.rhs), parameters);
+}
+
+/// The slip of a line that no small change makes right as it was read: one in what it says near a state, against
+/// what the derivation itself had before, of rest, or in what motions keep.
+void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known) {
+    const auto is_found = [&](const CheckedClaim& checked) {
+        return checked.likely && explains(*checked.likely, notes.claim, order_of(notes.claim));
+    };
+    if (is_found(line.checked)) return;
+    if (notes.near) {
+        CheckedClaim near = line.checked;
+        near.likely = slip_near(notes.claim, *notes.near, system_, known);
+        if (is_found(near)) return adopt(line, notes, std::move(near));
+    }
+    const auto seek = [&](const LineClaim& claim, const std::map<std::string, GiNaC::ex>& names) {
+        CheckedClaim found = std::move(verdicts_on({claim}, names, system_)[0]);
+        if (!is_found(found)) return false;
+        adopt(line, notes, std::move(found));
+        return true;
+    };
+    if (!notes.own.empty() && seek(notes.claim, notes.own)) return;
+    const int order = order_of(notes.claim);
+    LineClaim at_rest = notes.claim;
+    at_rest.at_rest = true;
+    if (order == 0 && notes.is_of_rest && holds_parameter(notes.claim) && seek(at_rest, known)) return;
+    if (order == 1 && notes.claim.constants.empty()) seek_in_integral(line, notes, known);
+}
+
+/// The slip of θ'² = g (1 − cos θ)/R, which motions that start at rest keep: the change after which both sides
+/// differ by a constant.
+void Marker::seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known) {
+    static const std::string constant = "integration_constant", added = " + " + constant;
+    LineClaim kept = notes.claim;
+    kept.rhs += added;
+    kept.constants = {constant};
+    CheckedClaim found = std::move(verdicts_on({kept}, known, system_)[0]);
+    if (found.verdict != Verdict::refuted || !found.likely) return;
+    std::string& repair = found.likely->repair;
+    if (!repair.ends_with(added) || !explains(*found.likely, notes.claim, 1)) return;
+    repair.erase(repair.size() - added.size());
+    found.nearest = repair;
+    found.difference.clear();
+    adopt(line, notes, std::move(found));
+}
+
+/// 2 where accelerations or forces of constraints stand in the line, 1 where rates do.
+int Marker::order_of(const LineClaim& claim) {
+    const Mechanism& m = system_.mechanism();
+    const Equations& e = system_.equations();
+    try {
+        const GiNaC::ex residual = truth_.value(claim.lhs) - truth_.value(claim.rhs);
+        if (m.z->depends(residual, m.qddot) || m.z->depends(residual, e.lambda)) return 2;
+        return m.z->depends(residual, m.qdot) ? 1 : 0;
+    } catch (const NoMeaning&) {
+        return 2;
+    }
+}
+
+/// Whether it can be read in one way only: stated, and not mentioned, in the scene's letters and those of energies
+/// and momenta, in a text that has spoken of no special state or case.
+bool Marker::has_one_reading(std::size_t k) const {
+    const LineNotes& notes = notes_[k];
+    const WrittenStatement& statement = written_.statements[lines[k].statement];
+    const bool is_stated = statement.displayed || asserts(statement.words) || speaks_of_quantity(notes);
+    const std::map<std::string, GiNaC::ex> own = known_to_check();
+    const auto is_own = [&](const std::string& name) { return own.contains(name) && !letters_.is_of_scene(name); };
+    const auto holds_own = [&](const ClaimText& side) {
+        return std::any_of(side.names.begin(), side.names.end(), is_own);
+    };
+    return is_stated && lines[k].reason.empty() && !notes.has_assumed && !holds_own(notes.left) &&
+           !holds_own(notes.right);
+}
+
+/// A line that fails, and that no small change makes right, is more often meant otherwise than wrong if it can be
+/// meant otherwise at all. Then nothing follows from it either.
 void Marker::withhold_unexplained(std::size_t k) {
     MarkedLine& line = lines[k];
     const bool is_from_line = line.status == LineStatus::follows && line.follows_from;
@@ -90,12 +158,12 @@ void Marker::withhold_unexplained(std::size_t k) {
         line.follows_from.reset();
         return;
     }
-    const bool is_unexplained = !line.checked.likely || line.checked.likely->kind == "unknown";
     const bool is_refuted = line.status == LineStatus::mistake && line.checked.verdict == Verdict::refuted;
-    const WrittenStatement& statement = written_.statements[line.statement];
-    if (!is_refuted || !is_unexplained || notes_[k].is_sure || statement.displayed) return;
-    const bool was_evaluated = line.reason.empty();
-    if (was_evaluated && (asserts(statement.words) || speaks_of_quantity(notes_[k]))) return;
+    if (!is_refuted || notes_[k].is_sure) return;
+    const LineClaim& claim = notes_[k].claim;
+    if (line.checked.likely && explains(*line.checked.likely, claim, order_of(claim))) return;
+    const bool is_of_units = line.checked.likely && line.checked.likely->kind == "wrong_unit";
+    if (has_one_reading(k) && !is_of_units) return;
     line.status = LineStatus::undecided;
     line.reason = say("as it was read it fails, and no small change makes it right: it may be meant otherwise");
     line.checked = {};

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/explanation.hpp"
+
+#include <algorithm>
+
+#include "check/claim_tree.hpp"
+
+namespace alembert {
+
+namespace {
+
+TreePtr tree_of(const std::string& text) {
+    std::vector<Diagnostic> mistakes;
+    return parse_expression(text, {}, mistakes).tree;
+}
+
+std::size_t terms_of(const Tree& side) {
+    if (side.kind == Tree::Kind::number && side.text == "0") return 0;
+    return side.kind == Tree::Kind::sum ? side.args.size() : 1;
+}
+
+int order_of(const Tree& tree) {
+    int order = tree.kind == Tree::Kind::name ? tree.primes : tree.kind == Tree::Kind::derivative ? 2 : 0;
+    for (const TreePtr& arg : tree.args) order = std::max(order, order_of(*arg));
+    return order;
+}
+
+int rates_in(const Tree& tree) {
+    if (tree.kind == Tree::Kind::name) return tree.primes == 1 ? 1 : 0;
+    if (tree.kind == Tree::Kind::power && tree.args[1]->text == "2") return 2 * rates_in(*tree.args[0]);
+    int rates = 0;
+    for (const TreePtr& arg : tree.args) rates += rates_in(*arg);
+    return rates;
+}
+
+/// One term, or terms such as x'^2 + y'^2, which one forgets together when one differentiates x*x' + y*y'.
+bool is_one_thought(const Tree& missing) {
+    if (missing.kind != Tree::Kind::sum) return true;
+    return std::all_of(missing.args.begin(), missing.args.end(),
+                       [](const TreePtr& term) { return order_of(*term) == 1 && rates_in(*term) == 2; });
+}
+
+}  // namespace
+
+bool explains(const Slip& slip, const LineClaim& claim, int order) {
+    if (slip.repair.empty()) return false;
+    constexpr std::size_t fewest_left = 3;
+    if (slip.kind == "extra_term") {
+        const TreePtr lhs = tree_of(claim.lhs), rhs = tree_of(claim.rhs);
+        return lhs && rhs && terms_of(*lhs) + terms_of(*rhs) > fewest_left;
+    }
+    const TreePtr term = tree_of(slip.term);
+    if (slip.kind == "missing_term")
+        return !term || (is_one_thought(*without_sign(term).first) && order_of(*term) <= order);
+    if (slip.kind == "lost_dot") return !term || term->kind != Tree::Kind::derivative;  // of V(θ): no rate
+    return true;
+}
+
+}  // namespace alembert
