@@ -40,6 +40,12 @@ bool is_one_thought(const Tree& missing) {
                        [](const TreePtr& term) { return order_of(*term) == 1 && rates_in(*term) == 2; });
 }
 
+bool holds_one_of(const std::vector<std::string>& names, const Tree& tree) {
+    const bool is_one = tree.kind == Tree::Kind::name && std::find(names.begin(), names.end(), tree.text) != names.end();
+    return is_one || std::any_of(tree.args.begin(), tree.args.end(),
+                                 [&](const TreePtr& arg) { return holds_one_of(names, *arg); });
+}
+
 }  // namespace
 
 bool explains(const Slip& slip, const LineClaim& claim, int order) {
@@ -54,6 +60,12 @@ bool explains(const Slip& slip, const LineClaim& claim, int order) {
         return !term || (is_one_thought(*without_sign(term).first) && order_of(*term) <= order);
     if (slip.kind == "lost_dot") return !term || term->kind != Tree::Kind::derivative;  // of V(θ): no rate
     return true;
+}
+
+bool explains_rest(const Slip& slip, const LineClaim& claim, const std::vector<std::string>& coordinates) {
+    const TreePtr meant = slip.meant.empty() ? nullptr : tree_of(slip.meant);
+    const bool is_of_place = meant && slip.kind == "factor" && holds_one_of(coordinates, *meant);
+    return explains(slip, claim, 0) && !is_of_place;
 }
 
 }  // namespace alembert

@@ -18,4 +18,7 @@ namespace alembert {
 /// `order`: 2 if accelerations or forces of constraints stand in the claim, 1 if rates do, else 0.
 bool explains(const Slip& slip, const LineClaim& claim, int order);
 
+/// The same of what is said of states of rest, where a factor of coordinates may make anything vanish.
+bool explains_rest(const Slip& slip, const LineClaim& claim, const std::vector<std::string>& coordinates);
+
 }  // namespace alembert

@@ -87,17 +87,18 @@ void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::s
         near.likely = slip_near(notes.claim, *notes.near, system_, known);
         if (is_found(near)) return adopt(line, notes, std::move(near));
     }
-    const auto seek = [&](const LineClaim& claim, const std::map<std::string, GiNaC::ex>& names) {
-        CheckedClaim found = std::move(verdicts_on({claim}, names, system_)[0]);
-        if (!is_found(found)) return false;
-        adopt(line, notes, std::move(found));
-        return true;
-    };
-    if (!notes.own.empty() && seek(notes.claim, notes.own)) return;
+    if (!notes.own.empty()) {
+        CheckedClaim own = std::move(verdicts_on({notes.claim}, notes.own, system_)[0]);
+        if (is_found(own)) return adopt(line, notes, std::move(own));
+    }
     const int order = order_of(notes.claim);
     LineClaim at_rest = notes.claim;
     at_rest.at_rest = true;
-    if (order == 0 && notes.is_of_rest && holds_parameter(notes.claim) && seek(at_rest, known)) return;
+    if (order == 0 && notes.is_of_rest && holds_parameter(notes.claim)) {
+        CheckedClaim rest = std::move(verdicts_on({at_rest}, known, system_)[0]);
+        if (rest.likely && explains_rest(*rest.likely, notes.claim, letters_.coordinates()))
+            return adopt(line, notes, std::move(rest));
+    }
     if (order == 1 && notes.claim.constants.empty()) seek_in_integral(line, notes, known);
 }
 
