@@ -313,7 +313,7 @@ void Edits::factors(const Summand& s) {
     for (const std::string& name : words_.parameters) {
         const bool is_length = words_.lengths.contains(name);
         const TreePtr base = name_tree(name);
-        if (const int there = own.exponent_of(base); std::abs(there) > 1)  // n^2 for 1/n^2
+        if (const int there = own.exponent_of(base); there != 0)  // n^2 for 1/n^2
             times(base, -2 * there, "factor", of_factor + 0.1);
         for (const int exponent : {-1, 1})
             times(base, exponent, is_length ? "wrong_arm" : "factor", of_parameter - (is_length ? 0.05 : 0));
@@ -321,6 +321,7 @@ void Edits::factors(const Summand& s) {
     for (const TreePtr& angle : words_.angles)
         for (const char* function : {"cos", "sin"}) {
             const TreePtr base = made(Kind::call, {angle}, function);
+            if (const int there = own.exponent_of(base); there != 0) times(base, -2 * there, "factor", of_factor + 0.1);
             for (const int exponent : {1, 2, -1})
                 times(base, exponent, "factor", of_factor + (exponent == 2 ? 0.15 : 0));
         }
