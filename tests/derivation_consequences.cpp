@@ -282,4 +282,19 @@ TEST_CASE("consequences: data with units in plain text") {
     CHECK(statuses(rod, "T = 2/3 m b^2 theta'^2 （3分）", "page.txt") == "R");
 }
 
+TEST_CASE("consequences: a force function, a primed constant, the place of a start, another system") {
+    for (const std::string words : {"The force function is ", "la fonction de forces est ", "力函数为 "})
+        CHECK(statuses(pendulum, words + "$$U = m g l\\cos\\theta$$") != "M");
+    CHECK(statuses(pendulum, "$U = m g l\\cos\\theta$, so $V = -U$.") == "DR");
+    CHECK(statuses(pendulum, "The potential energy is $$U = m g l\\cos\\theta$$") == "M");
+    CHECK(statuses(pendulum, "$$\\tfrac12 m l^2\\dot\\theta^2 - m g l\\cos\\theta = E' = \\text{const}$$")[0] !=
+          'M');
+    const std::string start = "It starts from rest at $\\theta = \\alpha$, so that ";
+    CHECK(statuses(pendulum, start + "$l\\dot\\theta^2 = 2g(\\cos\\theta - \\cos\\alpha)$.") == "-R");
+    CHECK(statuses(pendulum, start + "$l\\dot\\theta^2 = g(\\cos\\theta - \\cos\\alpha)$.") == "-M");
+    CHECK(statuses(pendulum, start + "at the bottom $l\\dot\\theta^2 = 2g(1 - \\cos\\alpha)$.") != "-M");
+    CHECK(statuses(pendulum, "If the bob is replaced by a rod, $$l\\ddot\\theta + \\frac32 g\\sin\\theta = 0$$") !=
+          "M");
+}
+
 }  // namespace derivation_consequences

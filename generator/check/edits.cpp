@@ -321,7 +321,8 @@ void Edits::factors(const Summand& s) {
     for (const TreePtr& angle : words_.angles)
         for (const char* function : {"cos", "sin"}) {
             const TreePtr base = made(Kind::call, {angle}, function);
-            if (const int there = own.exponent_of(base); there != 0) times(base, -2 * there, "factor", of_factor + 0.1);
+            if (const int there = own.exponent_of(base); there != 0)
+                times(base, -2 * there, "factor", of_factor + 0.1);
             for (const int exponent : {1, 2, -1})
                 times(base, exponent, "factor", of_factor + (exponent == 2 ? 0.15 : 0));
         }

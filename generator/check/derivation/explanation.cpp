@@ -41,7 +41,8 @@ bool is_one_thought(const Tree& missing) {
 }
 
 bool holds_one_of(const std::vector<std::string>& names, const Tree& tree) {
-    const bool is_one = tree.kind == Tree::Kind::name && std::find(names.begin(), names.end(), tree.text) != names.end();
+    const bool is_one =
+        tree.kind == Tree::Kind::name && std::find(names.begin(), names.end(), tree.text) != names.end();
     return is_one || std::any_of(tree.args.begin(), tree.args.end(),
                                  [&](const TreePtr& arg) { return holds_one_of(names, *arg); });
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
+#include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
 #include "model/formalism/elements.hpp"
@@ -95,6 +96,11 @@ std::optional<std::string> Marker::excuse(const MarkedLine& line, const Math& lh
     for (const Math* const side : {&lhs, &rhs})
         if (const Letter* const letter = place_of_rate(*side); letter != nullptr && may_be_shifted)
             return say("of {} only the rate has been stated", identifier_of(*letter));
+    const Lone last = lone_letter(*statement_->sides.back());
+    if (last.letter != nullptr && is_word_for_constant(last.letter->letter.base))
+        for (const Math* const side : {&lhs, &rhs})
+            if (side->kind == Math::Kind::letter && side->dots > 0 && quantity_of(side->letter))
+                return say("the prime may be a part of the letter");  // T + V = E' = const
     if (speaks_of_other_system(statement_->words)) return say("the words speak of another system");
     const std::size_t masses = system_.scene().particles.size() + system_.scene().bodies.size();
     const bool is_numbered = lhs.kind == Kind::letter && lhs.dots == 0 && !lhs.letter.index.empty() &&
@@ -308,7 +314,8 @@ bool Marker::is_wrong_energy_of_start(const ex& residual, const Math& lhs, const
     const bool has_one = m.size() == static_cast<int>(system_.equations().A.size()) + 1 && places_.size() == 1;
     if (!heard_.start_from_rest || !has_one || !m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
         return false;
-    if (!holds_rates(lhs) && !holds_rates(rhs)) return false;
+    const bool is_of_instant = !m.z->depends(residual, m.q);  // the rate where it leaves the wall
+    if (is_of_instant || (!holds_rates(lhs) && !holds_rates(rhs))) return false;
     return does_not_change(truth_.value(letters_.name_of(MechanicalQuantity::energy)));
 }
 

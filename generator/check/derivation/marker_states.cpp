@@ -9,6 +9,7 @@
 #include "base/language/say.hpp"
 #include "check/written/sentences.hpp"
 #include "check/written/surroundings.hpp"
+#include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
 #include "model/formalism/elements.hpp"
@@ -142,10 +143,15 @@ bool Marker::assumes_rest() const {
            speaks_of_special_motion(statement_->words) || begins_condition_of_state(statement_->words);
 }
 
-/// "Let θ = α and φ' = Ω be constant": a letter for the value of a coordinate or of its rate in a steady motion.
+/// "Let θ = α and φ' = Ω be constant", "φ' = Ω = const", "it starts from rest at θ = α": a letter for the value of
+/// a coordinate or of its rate in a steady motion or at the start.
 bool Marker::is_steady_value(const Math& side, const Math& letter) {
-    const bool is_said =
-        heard_.steady_lines > 0 || heard_.condition_lines > 0 || speaks_of_constant_value(heard_.around);
+    const Lone last = lone_letter(*statement_->sides.back());
+    const bool is_chain_to_constant = statement_->sides.size() > 2 && side.dots > 0 && last.letter != nullptr &&
+                                      is_word_for_constant(last.letter->letter.base);
+    const bool is_start = heard_.start_from_rest && side.dots == 0 && begins_condition_of_state(statement_->words);
+    const bool is_said = heard_.steady_lines > 0 || heard_.condition_lines > 0 || is_chain_to_constant ||
+                         is_start || speaks_of_constant_value(heard_.around);
     if (!is_said || side.kind != Kind::letter || side.dots > 1 || letter.kind != Kind::letter || letter.dots > 0)
         return false;
     const auto name = letters_.name_of(side.letter);

@@ -118,7 +118,24 @@ bool calls_coordinate_q(const Letters& letters, const Written& written) {
 
 }  // namespace
 
+/// "The force function U is", or V = −U.
+bool states_force_function(const Written& written) {
+    return std::any_of(
+        written.statements.begin(), written.statements.end(), [](const WrittenStatement& statement) {
+            if (speaks_of_force_function(statement.words)) return true;
+            for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k) {
+                const Letter* const V = alone_in(*statement.sides[k]);
+                const Math& other = *statement.sides[k + 1];
+                const Letter* const U = other.kind == Math::Kind::negate ? alone_in(*other.args[0]) : nullptr;
+                if (V != nullptr && U != nullptr && U->base == "U" && U->index.empty() && is_any_energy(*V))
+                    return true;
+            }
+            return false;
+        });
+}
+
 Letters with_authors_letters(Letters letters, const Written& written) {
+    if (states_force_function(written)) letters.leave_to_author({.base = "U"});
     if (calls_coordinate_q(letters, written)) letters.bind({.base = "q"}, letters.coordinates()[0]);
     for (const WrittenStatement& statement : written.statements)
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)

@@ -68,8 +68,12 @@ bool asserts(std::string_view words) {
 }
 
 bool speaks_of_other_system(std::string_view words) {
+    const std::string sentence = last_sentence(words);
+    if (has_phrase(sentence, "若*|如果*|假如*") && has_phrase(sentence, "改为*|换成*|换为*")) return true;
     return has_phrase(
-        last_sentence(words),
+        sentence,
+        "were replaced|is replaced by|ersetzt man|"
+        "si l'on remplace|si se reemplaza|se si sostituisce|"
         "analogous|analogue|kepler problem|kepler-problem|keplerproblem|problème de kepler|problema de "
         "kepler|开普勒问题*|in contrast to|unlike|im gegensatz zu*|contrairement à|a diferencia de|"
         "kepler-probleme*|im unterschied zu*|anders als beim*|à la différence d*|contrairement au|contrairement "
@@ -152,6 +156,15 @@ bool names_part_of_forces(std::string_view words) {
         "重力の仮想仕事*|重力の仕事*|重力による*|重力のする*|重力がする*|ばねの仮想仕事*|ばねの仕事*|ばねによる*|"
         "弾性力の仮想仕事*|弾性力の仕事*|"
         "弾性力による*|摩擦力の仕事*|摩擦力による*|摩擦による*|減衰力の仕事*|減衰力による*");
+}
+
+bool speaks_of_force_function(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "force function|force-function|work function|kräftefunktion|kraftfunktion|fonction de force|"
+        "fonction de forces|fonction des forces|función de fuerza|función de fuerzas|funzione delle forze|"
+        "funzione di forza|função de força|função das forças|funkcja sił|kraftfunktionen|силовая функция|"
+        "силовой функции|силовую функцию|力函数*|力関数*");
 }
 
 bool speaks_of_inertia(std::string_view words) {
