@@ -2,6 +2,7 @@
 #include "scene/plain_number.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace alembert {
 
@@ -15,6 +16,7 @@ public:
         if (++nodes_ > most_nodes) return std::nullopt;
         using Kind = Tree::Kind;
         if (tree.kind == Kind::number) return value_of_digits(tree.text);
+        if (tree.kind == Kind::name && tree.text == "pi" && tree.primes == 0) return std::numbers::pi;
         if (tree.kind == Kind::name) return tree.primes == 0 ? of_parameter(tree.text) : std::nullopt;
         if (tree.kind == Kind::call || tree.kind == Kind::derivative) return std::nullopt;
         double result = tree.kind == Kind::product ? 1 : 0;
