@@ -365,6 +365,12 @@ int main(void) {
     INFO(c.err);
     REQUIRE(c.exit == 0);
     CHECK(std::abs(std::stod(c.out) - a) < 1e-14);
+    const Run cpp = run_shell(
+        "cd \"$2\" && \"$ALEMBERT\" emit \"$1\" --batch -o . >/dev/null && "
+        "c++ -std=c++17 -O1 -Wall -Wextra -Werror -c ways.cpp -o ways.o",
+        {scene, folder});
+    INFO(cpp.err);
+    CHECK(cpp.exit == 0);
     const Run js = run_shell(
         "cd \"$2\" && \"$ALEMBERT\" emit \"$1\" --language js -o . >/dev/null && "
         "node -e \"import('./ways.mjs').then(m => { const r = [0, 0]; "

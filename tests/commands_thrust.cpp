@@ -114,6 +114,25 @@ TEST_CASE("thrust: what leaves along a frame that turns is the momentum written 
     CHECK(here["work_balance"].get<double>() < 1e-9);
 }
 
+TEST_CASE("thrust: the rocket whose momentum is written by hand is the particle that says what leaves it") {
+    const std::string by_hand = source_path("scenes/elements/rocket.toml");
+    const std::string scene = temporary(
+        "rocket_leaves.toml",
+        "gravity = [0, \"-g\"]\n" +
+            edited(contents(by_hand), {{"[energy]\nkinetic = \"M*h'^2/2\"\n", ""},
+                                       {"[forces]\nh = \"M'*(h' - c) - M*g\"\n",
+                                        "[[particle]]\nname = \"rocket\"\nmass = \"M\"\nposition = [0, \"h\"]\n"
+                                        "leaves = [0, \"-c\"]\n"}}));
+    const Json here = simulated(scene), there = simulated(by_hand);
+    CHECK(here["events"].size() == 1);
+    for (const char* const column : {"h", "h'", "M"}) {
+        const double a = here["events"][0]["record"][column].get<double>(),
+                     b = there["events"][0]["record"][column].get<double>();
+        CHECK(std::abs(a / b - 1) < 1e-12);
+    }
+    CHECK(std::abs(number(here["final"], "rates", "h") / number(there["final"], "rates", "h") - 1) < 1e-11);
+}
+
 // m = m_0 + k t at rest joins the drop: u = −v, so that (m v)' = m g and v = g (m_0 t + k t²/2)/m.
 TEST_CASE("thrust: a drop that takes up water at rest falls as its momentum says") {
     const std::string scene = temporary("drop.toml", R"toml(

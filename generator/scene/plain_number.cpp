@@ -8,9 +8,9 @@ namespace alembert {
 
 namespace {
 
-class Value {
+class PlainValue {
 public:
-    explicit Value(const Scene& scene) : scene_(scene) {}
+    explicit PlainValue(const Scene& scene) : scene_(scene) {}
 
     std::optional<double> of(const Tree& tree) {
         if (++nodes_ > most_nodes) return std::nullopt;
@@ -49,7 +49,7 @@ private:
 }  // namespace
 
 std::optional<double> plain_number(const Expression& expression, const Scene& scene) {
-    return expression ? Value(scene).of(*expression.tree) : std::nullopt;
+    return expression ? PlainValue(scene).of(*expression.tree) : std::nullopt;
 }
 
 }  // namespace alembert

@@ -56,7 +56,8 @@ class Table:
         self.x = [mpf(repr(float(p[0]))) for p in entry["points"]]
         self.y = [mpf(repr(float(p[1]))) for p in entry["points"]]
         how = entry.get("interpolation", "linear")
-        self.m = None if how == "linear" else _natural_slopes(self.x, self.y) if how == "cubic" else _monotone_slopes(self.x, self.y)
+        slopes = {"linear": lambda x, y: None, "cubic": _natural_slopes, "pchip": _monotone_slopes}[how]
+        self.m = slopes(self.x, self.y)
 
     def _polynomial(self, i):
         h = self.x[i + 1] - self.x[i]

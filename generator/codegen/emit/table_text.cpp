@@ -51,6 +51,7 @@ public:
         if (calls.empty()) return {};
         kainjow::mustache::data file;
         file.set("javascript", language_ == CodeLanguage::javascript);
+        file.set("packs", language_ == CodeLanguage::cpp);
         file.set("local", language_ == CodeLanguage::c ? "static inline" : "[[maybe_unused]] inline");
         file.set("floor", language_ == CodeLanguage::c ? "floor" : "__builtin_floor");
         file.set("held", any_held && language_ != CodeLanguage::javascript);
@@ -288,13 +289,13 @@ private:
     /// Of several systems side by side one after the other.
     static std::string lanes(const std::string& name, const std::vector<std::string>& names) {
         std::string each;
-        for (const std::string& one : names) each += (each.empty() ? "" : ", ") + one + "[k]";
+        for (const std::string& one : names) each += (each.empty() ? "" : ", ") + one + ".v[k]";
         return fmt::format(
-            "    if constexpr (!requires {{ double({}); }}) {{\n"
+            "    if constexpr (table_is_pack(static_cast<const Real*>(nullptr))) {{\n"
             "        Real result{{}};\n"
-            "        for (unsigned k = 0; k < sizeof(Real) / sizeof(double); ++k) result[k] = {}({});\n"
+            "        for (int k = 0; k < Real::lanes; ++k) result.v[k] = {}({});\n"
             "        return result;\n    }} else {{\n",
-            names[0], name, each);
+            name, each);
     }
 
     std::string side(const std::string& base, const TabulatedFunction& table, const Call& call) const {

@@ -3,7 +3,7 @@
 
 /// A function of one or two arguments through given points: a polynomial between neighbouring ones.
 ///
-///     const TabulatedFunction f({.axes = {{.at = {0, 1, 3}}}, .values = {0, 2, 2}, .interpolation = TabulatedFunction::Interpolation::linear});
+///     const TabulatedFunction f({.axes = {{.at = {0, 1, 3}}}, .values = {0, 2, 2}});      // linear between them
 ///     f.value<double>({0, 0}, {&x, nullptr});           // f(x)
 ///     f.value<double>({1, 0}, {&x, nullptr});           // f'(x)
 ///
