@@ -121,9 +121,11 @@ void declare_states(Building& here) {
 }
 
 void declare_functions(Building& here) {
-    for (std::size_t i = 0; i < here.scene.functions.size(); ++i)
+    for (std::size_t i = 0; i < here.scene.functions.size(); ++i) {
         here.translator.know_function(here.m.symbols->declare(here.scene.functions[i].name.text,
                                                               SymbolInfo::Kind::function, static_cast<int>(i)));
+        here.m.tables.push_back(here.scene.functions[i].table);
+    }
 }
 
 void define(Building& here) {
@@ -175,7 +177,7 @@ void check_given(Building& here) {
 
 void check_masses(Building& here) {
     for (const Particle& p : here.scene.particles)
-        require(here, p.mass, say("the mass of particle '{}'", p.name.text), 0);
+        if (!p.leaves) require(here, p.mass, say("the mass of particle '{}'", p.name.text), 0);
     for (const Body& b : here.scene.bodies) {
         require(here, b.mass, say("the mass of body '{}'", b.name.text), 0);
         if (!b.inertia) continue;
@@ -199,11 +201,16 @@ void check_masses(Building& here) {
 }  // namespace
 
 void declare(Building& here) {
+    // Tables have values, which parameters, inputs and the start may hold.
+    const auto& functions = here.scene.functions;
+    const bool has_tables =
+        std::any_of(functions.begin(), functions.end(), [](const auto& f) { return f.table != nullptr; });
+    if (has_tables) declare_functions(here);
     declare_parameters(here);
     declare_inputs(here);
     declare_coordinates(here);
     declare_states(here);
-    declare_functions(here);
+    if (!has_tables) declare_functions(here);
     if (here.mistakes.empty()) {
         here.values.emplace(here.m);
         check_given(here);

@@ -79,8 +79,34 @@ void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
     here.m.kinetic.push_back({{Kind::rotation, index, b.name.text}, here.m.z->name(energy)});
 }
 
+// Of what leaves a particle, or joins it, with the velocity u relative to it: m a = F + m' u (Meshchersky). The
+// momentum changes by m' v besides, so that the load is m' (v + u).
+void add_thrust(Building& here, const Particle& p, const Origin& origin) {
+    Intermediates& z = *here.m.z;
+    MassElement& element = here.m.masses.back();
+    if (z.depends(element.mass, here.m.q))
+        throw SceneMistake{
+            {p.mass.place(), say("the mass of particle '{}' depends on a coordinate; expected the time, "
+                                 "inputs, states and parameters",
+                                 p.name.text)}};
+    element.mass_rate = z.name(here.m.explicit_time_derivative({element.mass})[0]);
+    if (element.mass_rate.is_zero())
+        throw SceneMistake{
+            {p.leaves->place, say("something leaves particle '{}', and its mass does not change; expected "
+                                  "a mass such as \"m0 - k*t\", or a state",
+                                  p.name.text)}};
+    const Vector3 u = here.places.along(*p.leaves, p.along);
+    Load load{.origin = {Kind::thrust, origin.index, p.name.text}, .pairs = {}};
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!element.velocity[k].is_zero())
+            load.pairs.push_back({element.velocity[k], z.name(element.mass_rate * (element.velocity[k] + u[k])),
+                                  element.position[k]});
+    here.m.loads.push_back(std::move(load));
+}
+
 void add_particle(Building& here, const Particle& p, const Origin& origin) {
     add_translation(here, origin, p.name.text, here.translator.scalar(p.mass));
+    if (p.leaves) add_thrust(here, p, origin);
 }
 
 void add_body(Building& here, const Body& b, const Origin& origin) {

@@ -108,6 +108,18 @@ std::vector<ex> Mechanism::explicit_time_derivative(const std::vector<ex>& value
     return z->push_forward(values, along_time(*this));
 }
 
+const TabulatedFunction* Mechanism::table_of(const ex& function) const {
+    const auto index = static_cast<std::size_t>(symbols->info(GiNaC::ex_to<GiNaC::symbol>(function)).index);
+    return index < tables.size() ? tables[index].get() : nullptr;
+}
+
+std::vector<GiNaC::symbol> Mechanism::open_functions() const {
+    std::vector<GiNaC::symbol> result;
+    for (const GiNaC::symbol& function : symbols->functions())
+        if (table_of(function) == nullptr) result.push_back(function);
+    return result;
+}
+
 bool Mechanism::has_kicks() const {
     return std::any_of(event_actions.begin(), event_actions.end(), [](const EventAction& o) {
         return !o.impulse.empty() || !o.set.empty() || !o.rates.empty() || o.count;

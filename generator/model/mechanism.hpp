@@ -57,6 +57,7 @@ struct MassElement {
                                             ///< about which `inertia` is given, along N
     };
     std::optional<Rotation> rotation = {};
+    GiNaC::ex mass_rate = 0;  ///< of a mass that changes: its momentum changes by that times the velocity besides
     int frame = 0, point = 0,
         about = -1;  ///< positions in Mechanism::skeleton; `about` is the point about which `inertia` is given, if
                      ///< not the mass centre
@@ -224,6 +225,8 @@ struct Mechanism {
     std::vector<Parameter> parameters;
     std::vector<Input> inputs;
     std::vector<Definition> definitions;
+    /// Of each function of `symbols`, its points; null if the scene leaves it open.
+    std::vector<std::shared_ptr<const TabulatedFunction>> tables;
     std::vector<GiNaC::symbol> q, qdot, qddot;
     std::vector<std::string> units;              ///< units of the coordinates
     std::vector<Shown> shown_units;              ///< in which texts and plots show them
@@ -270,6 +273,11 @@ struct Mechanism {
         std::optional<int> count = {};         ///< the run stops at the zero of this number
     };
     std::vector<EventAction> event_actions;  ///< one for each of `events`
+
+    /// The functions that have no values.
+    std::vector<GiNaC::symbol> open_functions() const;
+    /// The points of the function that is called; null if it is open.
+    const TabulatedFunction* table_of(const GiNaC::ex& function) const;
 
     /// Do rates jump at an event?
     bool has_kicks() const;

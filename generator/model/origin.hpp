@@ -33,6 +33,7 @@ struct Origin {
         rayleigh,  ///< [dissipation]
         friction,  ///< dry friction
         armature,  ///< the rotor of a joint
+        thrust,    ///< of what leaves a particle
     };
     Kind kind = Kind::body;
     /// Position in the scene's table of that kind; for gravity, in the table of the mass on which it acts.
@@ -67,6 +68,7 @@ inline constexpr OriginWords origin_words[] = {
     {Origin::Kind::rayleigh, "[dissipation]", {"dissipation"}},
     {Origin::Kind::friction, to_say("friction {1}"), {"{1}", "friction_{1}"}},
     {Origin::Kind::armature, to_say("armature of {1}"), {"{1}", "armature_{1}"}},
+    {Origin::Kind::thrust, to_say("what leaves {1}"), {"{1}", "thrust_{1}"}},
 };
 
 /// "body A", "rotation of body A", "spring 1", "force 2 at P", "[energy] kinetic".

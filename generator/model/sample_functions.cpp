@@ -46,7 +46,7 @@ ex sample(const UnspecifiedCall& call, int function) {
 }  // namespace
 
 bool constraints_are_open(const Mechanism& m) {
-    const std::vector<GiNaC::symbol>& functions = m.symbols->functions();
+    const std::vector<GiNaC::symbol> functions = m.open_functions();
     if (functions.empty()) return false;
     const auto is_open = [&](const ex& e) { return m.z->depends(e, functions); };
     const auto row_is_open = [&](const auto& row) { return std::any_of(row.begin(), row.end(), is_open); };
@@ -66,7 +66,7 @@ Mechanism with_sample_functions(const Mechanism& mechanism) {
     m.z = std::make_shared<Intermediates>(*mechanism.z);
     m.z->redefine([&](const ex& definition) -> std::optional<ex> {
         const auto call = unspecified_call(definition);
-        if (!call) return std::nullopt;
+        if (!call || m.table_of(call->function) != nullptr) return std::nullopt;
         return sample(*call, m.symbols->info(GiNaC::ex_to<GiNaC::symbol>(call->function)).index);
     });
     m.q_is_guess.assign(m.q.size(), true);

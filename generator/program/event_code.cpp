@@ -65,6 +65,12 @@ bool translate_event(const Program& program, const Node& node, EventInstruction&
         case Op::product:
             step.op = node.is_reciprocal() ? Step::inverse : Step::product;
             return true;
+        case Op::unspecified:
+            if (program.table_of(node) == nullptr) return false;
+            step.op = Step::side;
+            step.index = program.table_call(node).orders[0];
+            step.table = program.shared_table_of(node);
+            return step.index >= TabulatedFunction::side_function;
         default: {
             const auto known = event_functions.find(node.op);
             if (known == event_functions.end()) return false;
@@ -84,7 +90,7 @@ std::vector<EventInstruction> event_instructions(const Program& program, int roo
         const Node& node = program[id];
         EventInstruction step{.op = Step::number};
         if (!translate_event(program, node, step)) return {};
-        for (std::size_t k = 0; k < node.args.size(); ++k)
+        for (std::size_t k = step.op == Step::side ? 2 : 0; k < node.args.size(); ++k)
             step.terms.push_back({.arg = place.at(node.args[k]),
                                   .factor = node.op == Op::sum ? cln::double_approx(node.coefficients[k]) : 1,
                                   .exponent = node.op == Op::product ? node.exponents[k] : 1});

@@ -22,6 +22,7 @@
 
 #include "program/function_value.hpp"
 #include "program/program.hpp"
+#include "program/table_value.hpp"
 
 namespace alembert {
 
@@ -124,8 +125,12 @@ void interpret_into(std::vector<Real>& value, const Program& program, const Stat
                 value[id] = has_divisor ? numerator / denominator : std::move(numerator);
                 break;
             }
-            case Op::unspecified:
-                program.refuse_unspecified(node);
+            case Op::unspecified: {
+                const Program::TableCall call = program.table_call(node);
+                value[id] = table_value<Real>(*program.table_of(node), call,
+                                              [&](int of) -> const Real& { return value[of]; });
+                break;
+            }
             default:
                 value[id] = function_value<Real>(node.op, arg);
         }

@@ -27,6 +27,9 @@ struct Jet {
     explicit Jet(Real x) : value(x) {}
     Jet(Real x, std::vector<Real> gradient) : value(x), d(std::move(gradient)) {}
 
+    static Jet of_double(double x) { return Jet(static_cast<Real>(x)); }
+    friend double place_of(const Jet& a) { return static_cast<double>(a.value); }
+
     Real derivative(std::size_t k) const { return k < d.size() ? d[k] : Real(0); }
 
     Jet& operator+=(const Jet& b) {

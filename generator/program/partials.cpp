@@ -63,6 +63,12 @@ public:
             }
             case Op::unspecified: {
                 if (k == 0 || k % 2 == 1) break;  // the function, or an order
+                if (const TabulatedFunction* const table = p_.table_of(node)) {
+                    const Program::TableCall call = p_.table_call(node);
+                    const bool is_side = k > 2 * call.arguments,
+                               is_function = call.orders[0] < TabulatedFunction::side_function;
+                    if (is_side || (is_function && call.orders[k / 2 - 1] >= table->degree())) break;
+                }
                 std::vector<int> args(node.args.begin(), node.args.end());
                 args[k - 1] = p_.sum(1, {{1, args[k - 1]}});
                 return p_.call(Op::unspecified, std::move(args));

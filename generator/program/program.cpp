@@ -460,6 +460,34 @@ void Program::refuse_unspecified(const Node& node) const {
             name));
 }
 
+std::shared_ptr<const TabulatedFunction> Program::shared_table_of(const Node& node) const {
+    const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
+    return index < tables.size() ? tables[index] : nullptr;
+}
+
+const TabulatedFunction* Program::table_of(const Node& node) const {
+    return shared_table_of(node).get();
+}
+
+Program::TableCall Program::table_call(const Node& node) const {
+    const TabulatedFunction* const table = table_of(node);
+    if (table == nullptr) refuse_unspecified(node);
+    const auto order = [&](std::size_t k) {
+        return cln::cl_I_to_int(cln::numerator(nodes_[node.args[k]].number));
+    };
+    TableCall call;
+    call.orders[0] = order(1);
+    call.arguments = call.orders[0] >= TabulatedFunction::side_function ? 1 : table->arguments();
+    for (std::size_t k = 0; k < call.arguments; ++k) {
+        call.orders[k] = order(2 * k + 1);
+        call.argument[k] = node.args[2 * k + 2];
+    }
+    const std::size_t plain = 1 + 2 * call.arguments;
+    call.is_held = node.args.size() > plain;
+    for (std::size_t k = 0; call.is_held && k < call.arguments; ++k) call.side[k] = node.args[plain + k];
+    return call;
+}
+
 Program Program::shell() const {
     Program result;
     result.source_labels = source_labels;
@@ -468,6 +496,7 @@ Program Program::shell() const {
     result.parameters = parameters;
     result.coordinates = coordinates;
     result.functions = functions;
+    result.tables = tables;
     result.speeds = speeds;
     result.states = states;
     result.formulation = formulation;

@@ -18,13 +18,16 @@
 
 #include <cln/rational.h>
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "alembert/base/tabulated_function.hpp"
 #include "program/kept_lists.hpp"
 
 namespace alembert {
@@ -56,7 +59,7 @@ enum class Op : unsigned char {
     min,
     max,
     unspecified,  ///< a call as in algebra/symbolic/unspecified.hpp; its first argument is the position of the
-                  ///< function
+                  ///< function, which may have a table
 };
 
 /// The scene language's name: "sin" for Op::sin …
@@ -262,7 +265,9 @@ public:
     std::vector<ReactionSign> reaction_signs;
     std::string name;                               ///< the name of the scene, that of its file without ending
     std::vector<Quantity> parameters, coordinates;  ///< the quantities to which the indices of variables refer
-    std::vector<std::string> functions;             ///< names of [functions], to which Op::unspecified refers
+    std::vector<std::string> functions;  ///< names of [functions] and [tables], to which Op::unspecified refers
+    /// Of each of them its points; null if it is open.
+    std::vector<std::shared_ptr<const TabulatedFunction>> tables;
     std::vector<Quantity> speeds;  ///< the speeds in the state; if empty, the rates of the coordinates
     int states = 0;                ///< how many of the speeds, at the end, are first-order states of the scene
     std::string formulation;       ///< formalism and form, for people
@@ -278,6 +283,20 @@ public:
 
     /// Throws ModelError for a node with Op::unspecified: the function has no values, and is named.
     [[noreturn]] void refuse_unspecified(const Node& node) const;
+    /// The table of a node with Op::unspecified; null if the function is open.
+    const TabulatedFunction* table_of(const Node& node) const;
+    /// The same with the table's owner.
+    std::shared_ptr<const TabulatedFunction> shared_table_of(const Node& node) const;
+    /// Of a call of a table: the derivative that it is, and whether the sides of its arguments are given, which
+    /// then stand behind the arguments (alembert/base/tabulated_function.hpp).
+    struct TableCall {
+        TabulatedFunction::Orders orders{};
+        std::array<int, 2> argument{};  ///< nodes
+        std::array<int, 2> side{};      ///< nodes, if they are held
+        bool is_held = false;
+        std::size_t arguments = 1;
+    };
+    TableCall table_call(const Node& node) const;
 
 private:
     /// The node with these contents, whose lists may stand anywhere.

@@ -47,6 +47,15 @@ PuiseuxSeries PuiseuxSeries::undefined() {
     return result;
 }
 
+double PuiseuxSeries::place() const {
+    constexpr Real known_to = 2e-13L;  // how far from a knot a start still counts as at it
+    const Real x = at(0).value;
+    for (const Term& term : terms_)
+        if (term.exponent > 0 && std::abs(term.value) > term.error)
+            return static_cast<double>(x + (term.value > 0 ? 1 : -1) * known_to * std::max(Real(1), std::abs(x)));
+    return static_cast<double>(x);
+}
+
 PuiseuxSeries PuiseuxSeries::path(Real x, Real error, const std::vector<Real>& steps) {
     PuiseuxSeries result(x, error);
     for (std::size_t k = 0; k < steps.size(); ++k)

@@ -36,6 +36,10 @@ public:
     PuiseuxSeries(bool b) : PuiseuxSeries(b ? Real(1) : Real(0)) {}  // NOLINT
     explicit PuiseuxSeries(Real x, Real error = 0) : terms_{{0, x, error}} { tidy(); }
 
+    static PuiseuxSeries of_double(double x) { return PuiseuxSeries(static_cast<Real>(x)); }
+    /// Of a path that starts at a knot of a table, on its side of it.
+    friend double place_of(const PuiseuxSeries& a) { return a.place(); }
+
     /// x + steps[0] ε + steps[1] ε² …; x is known to `error`.
     static PuiseuxSeries path(Real x, Real error, const std::vector<Real>& steps);
 
@@ -80,6 +84,7 @@ public:
     friend PuiseuxSeries atan2(const PuiseuxSeries& y, const PuiseuxSeries& x);
 
 private:
+    double place() const;
     static PuiseuxSeries undefined();
     double valuation() const;
     bool is_number() const;

@@ -136,8 +136,12 @@ std::optional<std::string> obstacle_to_recurrences(const Program& program, bool 
     roots.insert(roots.end(), power.begin(), power.end());
     for (const int id : program.needed(roots)) {
         const Node& node = program[id];
-        if (node.op == Op::unspecified) program.refuse_unspecified(node);
+        if (node.op == Op::unspecified && program.table_of(node) == nullptr) program.refuse_unspecified(node);
         if (node.is_constant()) continue;
+        if (node.op == Op::unspecified)
+            return say(
+                "method 'taylor' needs functions that have a power series everywhere, and a table is made of "
+                "pieces; take dop853");
         if (node.op == Op::abs || node.op == Op::sign || node.op == Op::min || node.op == Op::max)
             return say(
                 "method 'taylor' needs functions that have a power series everywhere, and {}(...) has a kink; "

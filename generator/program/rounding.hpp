@@ -40,6 +40,11 @@ struct CountedValue {
     }
     CountedValue& operator+=(const CountedValue& b) { return *this = plus(*this, b.value, b.error); }
     CountedValue& operator*=(const CountedValue& b) { return *this = *this * b; }
+    friend CountedValue operator+(const CountedValue& a, const CountedValue& b) {
+        return plus(a, b.value, b.error);
+    }
+    friend double place_of(const CountedValue& x) { return x.value; }
+    static CountedValue of_double(double x) { return {x, 0}; }
     friend bool operator<(const CountedValue& a, const CountedValue& b) { return a.value < b.value; }
     friend bool operator>(const CountedValue& a, const CountedValue& b) { return a.value > b.value; }
     friend bool operator!=(const CountedValue& a, const CountedValue& b) { return a.value != b.value; }

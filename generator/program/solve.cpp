@@ -173,7 +173,7 @@ const std::vector<double>& Witness::values(const Program& program) const {
     if (!state_) return values_;
     std::vector<int> more;
     for (int id = static_cast<int>(values_.size()); id < program.size(); ++id) {
-        if (program[id].op == Op::unspecified) {
+        if (program[id].op == Op::unspecified && program.table_of(program[id]) == nullptr) {
             values_.clear();
             return values_;
         }

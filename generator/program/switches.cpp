@@ -8,6 +8,7 @@
 #include <map>
 
 #include "program/interpret.hpp"
+#include "program/known_knots.hpp"
 #include "program/motion_system.hpp"
 #include "program/partials.hpp"
 #include "program/rewriting.hpp"
@@ -15,6 +16,9 @@
 namespace alembert {
 
 namespace {
+
+/// Beyond that steps are so short that their control sees the knots of a table by itself, for less.
+constexpr std::size_t most_kinks = 1000;
 
 /// Copies the program and collects the functions whose signs are kept constant.
 class Holding {
@@ -39,6 +43,7 @@ private:
             for (std::size_t k = 1; k < node.args.size(); ++k) args.push_back(rewriting_.image(node.args[k]));
             return made.call(node.op, args);
         }
+        if (node.op == Op::unspecified && old_.table_of(node) != nullptr) return table(id);
         if (!bends || node.is_constant()) return rewriting_.plain(id);
         const Rational half = Rational(1) / 2;
         const int a = rewriting_.image(node.args[0]);
@@ -52,6 +57,33 @@ private:
             value = made.sum(0, {{half, value}, {half, b}, {node.op == Op::max ? half : -half, apart}});
         }
         return value;
+    }
+
+    /// A call whose derivatives jump at some knots, with the sides of its arguments.
+    int table(int id) {
+        const Node& node = old_[id];
+        const Program::TableCall call = old_.table_call(node);
+        const TabulatedFunction& of = *old_.table_of(node);
+        Program& made = rewriting_.made();
+        const bool is_function =
+            call.orders[0] < TabulatedFunction::side_function && !call.is_held && !node.is_constant();
+        const auto is_kinked = [&](std::size_t k) {
+            const std::size_t kinks = kinks_of(of, k, call.orders).size();
+            return kinks > 0 && kinks <= most_kinks && !old_[call.argument[k]].is_constant() &&
+                   !has_known_knots(old_, of, call, k);
+        };
+        bool any = false;
+        for (std::size_t k = 0; k < call.arguments; ++k) any = any || (is_function && is_kinked(k));
+        if (!any) return rewriting_.plain(id);
+        std::vector<int> args, sides;
+        for (const int arg : node.args) args.push_back(rewriting_.image(arg));
+        for (std::size_t k = 0; k < call.arguments; ++k) {
+            const int order = made.number(TabulatedFunction::side_order(k, call.orders));
+            const int side = made.call(Op::unspecified, {args[0], order, args[2 * k + 2]});
+            sides.push_back(is_kinked(k) ? side_of(side, id) : made.call(Op::sign, {side}));
+        }
+        args.insert(args.end(), sides.begin(), sides.end());
+        return made.call(Op::unspecified, args);
     }
 
     /// Whether a node is zero where a sign in it changes, as max(0, x) is. With a sign that is held, it goes on to

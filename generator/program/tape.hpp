@@ -44,7 +44,10 @@ public:
                              .first = terms_.size(),
                              .count = 0,
                              .number = real_of<Real>(node.number)};
-            if (node.op == Op::unspecified) program.refuse_unspecified(node);
+            if (node.op == Op::unspecified) {
+                step.index = static_cast<int>(tables_.size());
+                tables_.push_back({program.table_call(node), program.shared_table_of(node)});
+            }
             for (std::size_t k = 0; k < node.args.size(); ++k) {
                 const bool is_sum = node.op == Op::sum;
                 terms_.push_back({node.args[k], is_sum ? real_of<Real>(node.coefficients[k]) : Real(0),
@@ -122,8 +125,11 @@ private:
                 to = divides ? Real(above / below) : above;
                 break;
             }
-            case Op::unspecified:  // refused when the tape is made
+            case Op::unspecified: {
+                const auto& [call, table] = tables_[static_cast<std::size_t>(step.index)];
+                to = table_value<Real>(*table, call, [this](int id) -> const Real& { return at(id); });
                 break;
+            }
             default:
                 to = function_value<Real>(step.op, arg);
         }
@@ -133,6 +139,7 @@ private:
     std::vector<Real> value_;
     std::vector<Instruction> steps_;
     std::vector<Term> terms_;
+    std::vector<std::pair<Program::TableCall, std::shared_ptr<const TabulatedFunction>>> tables_;
     const Real* udot_ = nullptr;
 };
 

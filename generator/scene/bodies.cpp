@@ -208,6 +208,11 @@ void read_particle(Table table, Scene& scene) {
     table.entitle(particle.name);
     particle.mass = table.needed_expression("mass");
     particle.position = read_position(table, "position", true);
+    particle.leaves = table.vector("leaves");
+    if (auto along = table.name("leaves_along")) particle.along = std::move(*along);
+    if (table.has("leaves_along") && !particle.leaves)
+        table.complain("leaves_along", say("{} says along which axes 'leaves' is, and there is no 'leaves'",
+                                           table.what("leaves_along")));
     scene.particles.push_back(std::move(particle));
 }
 

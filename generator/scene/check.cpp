@@ -246,11 +246,18 @@ private:
             .if_changing =
                 say("; a body whose mass changes is no closed system, and its equation depends on the "
                     "velocity of what leaves or joins it: with kinetic = \"(m0 - k*t)*x'^2/2\" in [energy] "
-                    "that has no velocity, (m x')' = F; otherwise give the thrust as a [[force]]")},
+                    "that has no velocity, (m x')' = F; otherwise say with leaves = [x, y] of a [[particle]] the "
+                    "velocity of what leaves relative to it")},
             moment{.subject = say("a moment of inertia")};
         if (scene_.gravity) check(*scene_.gravity, {.subject = say("gravity"), .input_order = 2, .time = true});
+        const Legal changing{.subject = say("a mass"), .order = 0, .input_order = 0, .time = true};
         for (const Particle& particle : scene_.particles) {
-            quantities_.check(particle.mass, mass);
+            quantities_.check(particle.mass, particle.leaves ? changing : mass);
+            if (particle.leaves) {
+                check(*particle.leaves,
+                      {.subject = say("the velocity of what leaves"), .order = 1, .input_order = 2, .time = true});
+                quantities_.check_frame(particle.along);
+            }
             check(particle.position);
         }
         for (const Body& body : scene_.bodies) {

@@ -74,7 +74,7 @@ std::string text_of(const Dimension& dimension) {
     return above;
 }
 
-Dimensions::Dimensions(const Scene& scene, Numbers numbers) : numbers_(numbers) {
+Dimensions::Dimensions(const Scene& scene, Numbers numbers) : numbers_(numbers), functions_(scene.functions) {
     for (const Parameter& p : scene.parameters) know(p.name.text, p.unit);
     for (const Coordinate& q : scene.coordinates) know(q.name.text, q.unit);
     for (const Speed& u : scene.speeds) know(u.name.text, u.unit);
@@ -245,6 +245,7 @@ std::optional<Dimension> Dimensions::of_call(const Tree& tree) {
     }
     std::vector<Known> args;
     for (const TreePtr& arg : tree.args) args.push_back(of(*arg));
+    if (const UnspecifiedFunction* const table = table_named(tree.text)) return of_table(*table, tree, args);
     if (tree.text == "sign") return Dimension{};
     if (functions_of_numbers().contains(tree.text)) {
         if (args.size() == 1 && args[0] && !args[0]->empty())
@@ -259,6 +260,25 @@ std::optional<Dimension> Dimensions::of_call(const Tree& tree) {
         return multiplied(*args[0], *args[1]);
     if (tree.text == "sqrt" && args.size() == 1 && args[0]) return multiplied({}, *args[0], 0.5);
     return {};
+}
+
+const UnspecifiedFunction* Dimensions::table_named(const std::string& name) const {
+    for (const UnspecifiedFunction& function : functions_)
+        if (function.table && function.name.text == name) return &function;
+    return nullptr;
+}
+
+std::optional<Dimension> Dimensions::of_table(const UnspecifiedFunction& table, const Tree& tree,
+                                              const std::vector<Known>& args) {
+    for (std::size_t k = 0; k < std::min(args.size(), table.units.size()); ++k) {
+        const Known wanted = dimension_of_unit(table.units[k]);
+        if (wanted && args[k] && *wanted != *args[k])
+            contradictions_.push_back({current_->place(tree.args[k]->offset),
+                                       say("the argument of the table {} is in {}; {} is in {}", tree.text,
+                                           text_of(*wanted), in_quotes(text(*tree.args[k])), text_of(*args[k])),
+                                       Severity::warning, "unit_mismatch"});
+    }
+    return dimension_of_unit(table.unit);
 }
 
 std::optional<Dimension> Dimensions::of_name(const std::string& name) {

@@ -81,11 +81,14 @@ private:
     Known of_product(const Tree& tree);
     Known of_power(const Tree& tree);
     Known of_call(const Tree& tree);
+    const UnspecifiedFunction* table_named(const std::string& name) const;
+    Known of_table(const UnspecifiedFunction& table, const Tree& tree, const std::vector<Known>& args);
     bool learn(const Tree& tree, const Known& wanted);
     bool learn_factor(const Tree& product, const Dimension& wanted);
     std::string text(const Tree& tree) const;
 
     Numbers numbers_;
+    std::vector<UnspecifiedFunction> functions_;
     std::map<std::string, Dimension> names_;
     std::map<std::string, const Expression*> definitions_;  ///< looked at when they are asked for
     const Expression* current_ = nullptr;

@@ -69,7 +69,7 @@ KnownNames names_in(const toml::table& scene) {
     names.set_units(units_in(scene["units"]));
     for (const std::string_view table : {"coordinates", "speeds", "states", "inputs", "definitions"})
         add_keys(scene[table], names, true);
-    for (const std::string_view table : {"parameters", "functions", "outputs"})
+    for (const std::string_view table : {"parameters", "functions", "tables", "outputs"})
         add_keys(scene[table], names, false);
     for (const std::string_view list :
          {"frame", "point", "particle", "body", "joint", "constraint", "rolling", "unilateral", "friction"})

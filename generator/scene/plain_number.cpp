@@ -2,19 +2,21 @@
 #include "scene/plain_number.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace alembert {
 
 namespace {
 
-class Value {
+class PlainValue {
 public:
-    explicit Value(const Scene& scene) : scene_(scene) {}
+    explicit PlainValue(const Scene& scene) : scene_(scene) {}
 
     std::optional<double> of(const Tree& tree) {
         if (++nodes_ > most_nodes) return std::nullopt;
         using Kind = Tree::Kind;
         if (tree.kind == Kind::number) return value_of_digits(tree.text);
+        if (tree.kind == Kind::name && tree.text == "pi" && tree.primes == 0) return std::numbers::pi;
         if (tree.kind == Kind::name) return tree.primes == 0 ? of_parameter(tree.text) : std::nullopt;
         if (tree.kind == Kind::call || tree.kind == Kind::derivative) return std::nullopt;
         double result = tree.kind == Kind::product ? 1 : 0;
@@ -47,7 +49,7 @@ private:
 }  // namespace
 
 std::optional<double> plain_number(const Expression& expression, const Scene& scene) {
-    return expression ? Value(scene).of(*expression.tree) : std::nullopt;
+    return expression ? PlainValue(scene).of(*expression.tree) : std::nullopt;
 }
 
 }  // namespace alembert

@@ -289,6 +289,7 @@ void Quantities::meet_function(Context& context, const Tree& tree) {
         complain(context, tree,
                  say("{} takes {} argument{}, not {}: {}", in_quotes(tree.text), function.arguments.size(),
                      function.arguments.size() == 1 ? "" : "s", tree.args.size(), function.usage()));
+    if (function.table) return;
     if (context.legal.order < 0)
         complain(context, tree,
                  say("{} needs a value, and {} has none: [functions] leaves it open", context.legal.subject,

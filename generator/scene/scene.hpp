@@ -11,11 +11,13 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "alembert/base/tabulated_function.hpp"
 #include "scene/expression.hpp"
 #include "scene/unit_text.hpp"
 
@@ -78,11 +80,15 @@ struct Definition {
         false;  ///< whether it was given as [x, y, z]; `value` is then x*ex(N) + y*ey(N) + z*ez(N)
 };
 
-/// A function that the scene leaves open: V(r).
+/// A function that the scene leaves open, V(r), or gives by points.
 struct UnspecifiedFunction {
     Name name;
-    std::vector<Name> arguments;  ///< only their number counts
-    std::string usage() const;    ///< "V(r)"
+    std::vector<Name> arguments;                          ///< only their number counts
+    std::shared_ptr<const TabulatedFunction> table = {};  ///< in SI units; null if the function is open
+    std::string unit = {}, about = {};                    ///< of its values
+    std::vector<std::string> units = {};                  ///< of its arguments
+    Place unit_place = {};
+    std::string usage() const;  ///< "V(r)"
 };
 
 /// A generalized speed, which is linear in the rates.
@@ -135,6 +141,10 @@ struct Particle {
     Name name;
     Expression mass;
     Position position;
+    /// The velocity, relative to the particle and along the axes `along`, of what leaves it while its mass falls,
+    /// or joins it while it grows.
+    std::optional<Vector> leaves = {};
+    Name along{"N", {}};
 };
 
 struct Inertia {

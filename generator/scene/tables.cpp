@@ -263,11 +263,11 @@ void read_outputs(Table table, Scene& scene) {
 
 std::span<const TableReader> symbol_sections() {
     static constexpr TableReader all[] = {
-        {"parameters", read_parameters}, {"inputs", read_inputs},           {"coordinates", read_coordinates},
-        {"speeds", read_speeds},         {"states", read_states},           {"definitions", read_definitions},
-        {"functions", read_functions},   {"letters", read_letters},         {"units", read_units},
-        {"energy", read_energy},         {"dissipation", read_dissipation}, {"forces", read_forces},
-        {"impulses", read_impulses},     {"outputs", read_outputs},
+        {"parameters", read_parameters}, {"inputs", read_inputs},       {"coordinates", read_coordinates},
+        {"speeds", read_speeds},         {"states", read_states},       {"definitions", read_definitions},
+        {"functions", read_functions},   {"tables", read_point_tables}, {"letters", read_letters},
+        {"units", read_units},           {"energy", read_energy},       {"dissipation", read_dissipation},
+        {"forces", read_forces},         {"impulses", read_impulses},   {"outputs", read_outputs},
     };
     return all;
 }

@@ -24,6 +24,9 @@ std::span<const TableReader> joint_sections();   ///< joints.cpp: what holds the
 std::span<const TableReader> load_sections();    ///< loads.cpp: what acts on them
 std::span<const TableReader> run_sections();     ///< runs.cpp: what is to be done
 
+/// tabulated.cpp: functions by points.
+void read_point_tables(Table table, Scene& scene);
+
 /// Of coordinates, and of the drives of joints.
 void read_forces(Table table, Scene& scene);
 Coordinate read_coordinate(const Reading& reading, const Entry& entry);

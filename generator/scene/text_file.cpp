@@ -15,8 +15,6 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t largest_file = 1024 * 1024;
-
 [[noreturn]] void refuse_file(const std::string& file, std::string message) {
     Scene scene;
     scene.file = file;
@@ -25,7 +23,7 @@ constexpr std::size_t largest_file = 1024 * 1024;
 
 }  // namespace
 
-std::string text_of_file(const std::string& file) {
+std::string text_of_file(const std::string& file, std::size_t largest) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
         refuse_file(file, say("is a directory; expected a scene file"));
@@ -33,12 +31,14 @@ std::string text_of_file(const std::string& file) {
     if (!std::filesystem::exists(file, error)) refuse_file(file, say("no such file"));
     std::ifstream stream(file, std::ios::binary);
     if (!stream) refuse_file(file, say("cannot be opened: {}", std::strerror(errno)));
-    std::string text(largest_file + 1, '\0');
+    std::string text(largest + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (stream.bad()) refuse_file(file, say("cannot be read"));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > largest_file)
-        refuse_file(file, say("has more than 1048576 bytes (1 MiB), the limit for a scene"));
+    if (text.size() > largest)
+        refuse_file(file, largest == most_scene_bytes
+                              ? say("has more than 1048576 bytes (1 MiB), the limit for a scene")
+                              : say("has more than {} bytes, the limit for a table", largest));
     return text;
 }
 

@@ -77,6 +77,13 @@ std::string text_of(const Program& p, int id, int depth = 0) {
             }
             return text;
         }
+        case Op::unspecified: {
+            const Program::TableCall call = p.table_call(node);
+            std::string text;
+            for (std::size_t k = 0; k < call.arguments; ++k)
+                text += (text.empty() ? "" : ", ") + text_of(p, call.argument[k], 0);
+            return fmt::format("{}({})", p.functions.at(std::stoul(inner(node.args[0]))), text);
+        }
         default: {
             std::string text;
             for (const int arg : node.args) text += (text.empty() ? "" : ", ") + text_of(p, arg, 0);

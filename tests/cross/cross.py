@@ -212,8 +212,8 @@ class Examination:
                 self._count("motion ends early")
                 return
             raise Failure("simulate", f"ends with {no.code}: {no}") from None
-        ways = [("simulate", self.door.simulate), ("--method", lambda: self.door.simulate("--method", self.rng.choice(
-            ["dop853", "taylor", "radau", "verner98", "dopri5", "verner76", "bdf"])))]
+        methods = ["dop853", "dopri5" if "tables" in self.scene else "taylor", "radau", "verner98", "dopri5", "verner76", "bdf"]
+        ways = [("simulate", self.door.simulate), ("--method", lambda: self.door.simulate("--method", self.rng.choice(methods)))]
         ways += [("--max-step", lambda: self.door.simulate("--max-step", repr(duration / self.rng.choice([10, 60]))))]
         ways += [("sweep", self._sweep)]
         if self.options.compile(self.rng):

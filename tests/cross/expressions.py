@@ -148,7 +148,7 @@ _TOKEN = re.compile(r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P
 _read = {}
 
 
-def _python(text):
+def _python(text, tables):
     """The Python of an expression; names are looked up as n['x', dots], numbers are read in all their digits."""
     out, at = [], 0
     text = text.strip()
@@ -161,7 +161,7 @@ def _python(text):
             out.append(f"number('{match['number']}')")
         elif match["name"]:
             is_call = text[at:].lstrip().startswith("(")
-            if is_call and match["name"] not in FUNCTIONS:
+            if is_call and match["name"] not in FUNCTIONS and match["name"] not in tables:
                 raise NotRead(f"{match['name']}(…) in {text!r}")
             out.append(f"f['{match['name']}']" if is_call else f"n['{match['name']}', {len(match['primes'])}]")
         else:
@@ -172,6 +172,7 @@ def _python(text):
 def evaluate(text, names):
     """The Jet of an expression; names[name, dots] gives that of a name. Throws NotRead, and KeyError for a name."""
     text = str(text)
-    if text not in _read:
-        _read[text] = compile(_python(text), text, "eval")
-    return jet(eval(_read[text], {"f": FUNCTIONS, "n": names, "number": lambda digits: Jet(mpf(digits))}))
+    tables = getattr(names, "tables", {})
+    if text not in _read or tables:
+        _read[text] = compile(_python(text, tables), text, "eval")
+    return jet(eval(_read[text], {"f": {**FUNCTIONS, **tables}, "n": names, "number": lambda digits: Jet(mpf(digits))}))

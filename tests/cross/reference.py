@@ -10,6 +10,7 @@ on reactions) is refused with NotRead.
 import mpmath
 from mpmath import mpf
 
+import tables
 from expressions import Jet, NotRead, cos, evaluate, jet, sin, sqrt
 
 
@@ -74,6 +75,7 @@ class Names(dict):
     def __init__(self, scene):
         super().__init__()
         self.scene = scene
+        self.tables = tables.of_scene(scene)
 
     def __missing__(self, key):
         name, dots = key

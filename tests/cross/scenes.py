@@ -385,6 +385,23 @@ def _states(d, rng):
     forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*{last}"
 
 
+def _tables(d, rng):
+    """A force by points over a coordinate that starts among them, by draws of their own."""
+    near = [name for name, e in d.scene["coordinates"].items() if abs(e.get("initial", e.get("guess", 1))) < 10]
+    if not near or rng.random() >= 0.3:
+        return
+    name = rng.choice(near)
+    entry = d.scene["coordinates"][name]
+    x, points = entry.get("initial", entry.get("guess")) - number(rng, 1, 2), []
+    for _ in range(rng.randint(4, 8)):
+        points.append([float(f"{x:.6g}"), number(rng, -1, 1)])
+        x += number(rng, 0.2, 0.9)
+    how = rng.choice(["linear", "cubic", "pchip"])
+    d.scene["tables"] = {"by_points": {"arguments": ["s"], "interpolation": how, "outside": "line", "points": points}}
+    forces = d.scene.setdefault("forces", {})
+    forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*by_points({name})"
+
+
 def make(seed):
     """(kind, scene) of a seed."""
     d = Draft(seed)
@@ -395,6 +412,7 @@ def make(seed):
         _speeds(d)
         _events(d)
         _states(d, random.Random(seed * 31 + 5))
+        _tables(d, random.Random(seed * 37 + 11))
     d.scene["simulation"] = {"duration": number(d.rng, 1, 4), "tolerance": 10.0 ** -d.rng.choice([7, 9, 10, 12])}
     for table in ("coordinates", "parameters"):
         if not d.scene[table]:

@@ -211,7 +211,9 @@ std::optional<Failure> found_failure(const Derived& d, const State<double>& stat
         return Failure{say("nothing has inertia along {}; give it a mass, or remove a coordinate", *combination),
                        Failure::Kind::massless};
     if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return other(lost);
-    auto found = not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
+    const Group group = program.singular ? Group::forcing : Group::acceleration;
+    if (auto ended = ended_table(program, state, group)) return other(ended);
+    auto found = not_finite(program, state, group);
     if (!found) return std::nullopt;
     return Failure{std::move(found->text),
                    found->is_division ? Failure::Kind::division_by_zero : Failure::Kind::other};

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "program/echelon.hpp"
+#include "program/table_value.hpp"
 
 namespace alembert {
 
@@ -30,6 +31,21 @@ Turned operator*(const Turned& a, const Turned& b) {
 struct Linear {
     std::map<Key, Rational> angles;
     Rational pi = 0;
+};
+
+/// A fraction or a float of fifty digits; coefficients of tables are doubles, which are fractions.
+struct ExactNumber {
+    numeric n = 0;
+    ExactNumber() = default;
+    explicit ExactNumber(const numeric& value) : n(value) {}
+    explicit ExactNumber(double value) : n(cln::cl_N(cln::rational(cln::cl_DF(value)))) {}
+    friend ExactNumber operator+(const ExactNumber& a, const ExactNumber& b) { return ExactNumber(a.n + b.n); }
+    friend ExactNumber operator-(const ExactNumber& a, const ExactNumber& b) { return ExactNumber(a.n - b.n); }
+    friend ExactNumber operator*(const ExactNumber& a, const ExactNumber& b) { return ExactNumber(a.n * b.n); }
+    friend ExactNumber operator/(const ExactNumber& a, const ExactNumber& b) { return ExactNumber(a.n / b.n); }
+    ExactNumber& operator+=(const ExactNumber& b) { return *this = *this + b; }
+    ExactNumber& operator*=(const ExactNumber& b) { return *this = *this * b; }
+    friend double place_of(const ExactNumber& x) { return x.n.to_double(); }
 };
 
 class Evaluation {
@@ -117,12 +133,24 @@ private:
             case Op::unspecified: {
                 std::vector<numeric> args;
                 for (const int a : node.args) args.push_back(value_[a]);
-                return unspecified_sample(args);
+                return p_.table_of(node) != nullptr ? of_table(node) : unspecified_sample(args);
             }
         }
         return std::nullopt;
     } catch (const std::exception&) {  // a pole
         return std::nullopt;
+    }
+
+    /// By the polynomials of the table, in the numbers of the arguments; nothing where it has no value.
+    std::optional<numeric> of_table(const Node& node) {
+        const TabulatedFunction& table = *p_.table_of(node);
+        const Program::TableCall call = p_.table_call(node);
+        for (std::size_t k = 0; k < call.arguments; ++k)
+            if (!table.has(k, value_[call.argument[k]].to_double())) return std::nullopt;
+        std::map<int, ExactNumber> at;
+        for (std::size_t k = 0; k < call.arguments; ++k)
+            for (const int id : {call.argument[k], call.side[k]}) at[id] = ExactNumber(value_[id]);
+        return table_value<ExactNumber>(table, call, [&](int id) -> const ExactNumber& { return at.at(id); }).n;
     }
 
     /// A small fraction that depends on the arguments alone, of which those that are floats are rounded.

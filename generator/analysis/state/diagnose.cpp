@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cln/integer.h>
+
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -147,6 +149,31 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
         count == 1 ? say("constraint {} has no row left", names)
                    : say("the rows of constraints {} become dependent", names),
         rows.rank, left);
+}
+
+std::optional<std::string> ended_table(const Program& program, const State<double>& state, Group group) {
+    constexpr double close = 1e-6;  // relative to the points' range: the last step before has been cut short
+    const std::vector<double> value = interpret(program, state);
+    for (const int id : program.needed(program.nodes_of(group))) {
+        const Node& node = program[id];
+        const TabulatedFunction* const table = node.op == Op::unspecified ? program.table_of(node) : nullptr;
+        if (table == nullptr || table->outside() != TabulatedFunction::Outside::error) continue;
+        const Program::TableCall call = program.table_call(node);
+        if (call.orders[0] >= TabulatedFunction::side_function) continue;
+        for (std::size_t k = 0; k < call.arguments; ++k) {
+            const TableAxis& axis = table->axes()[k];
+            const double low = axis.at.front(), high = axis.at.back(), x = value[call.argument[k]],
+                         far = close * (high - low);
+            if (axis.period > 0 || !std::isfinite(x) || (x > low + far && x < high - far)) continue;
+            const auto function =
+                static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(program[node.args[0]].number)));
+            return say(
+                "an argument of the table '{}' is {:.6g}, and its points end at {:.6g}; give more points, or "
+                "outside = \"hold\" or \"line\"",
+                program.functions[function], x, x <= low + far ? low : high);
+        }
+    }
+    return std::nullopt;
 }
 
 std::optional<NotFinite> not_finite(const Program& program, const State<double>& state, Group group) {

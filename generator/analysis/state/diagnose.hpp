@@ -31,6 +31,9 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
 /// finite, and say nothing.
 bool is_rank_rounding(const Program& program, const State<double>& state, const std::vector<int>& kept);
 
+/// Which table a computation of `group` has left, or is about to leave, whose points say no more.
+std::optional<std::string> ended_table(const Program& program, const State<double>& state, Group group);
+
 struct NotFinite {
     std::string text;          ///< what it is, and the part from which it comes: "a division by zero in spring 1"
     bool is_division = false;  ///< by zero

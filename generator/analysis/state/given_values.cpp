@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <memory>
 #include <utility>
 
 #include "analysis/state/assemble.hpp"
@@ -15,7 +15,7 @@
 #include "model/constant.hpp"
 #include "scene/check.hpp"
 #include "scene/known_names.hpp"
-#include "scene/lists.hpp"
+#include "scene/point_table.hpp"
 #include "scene/text_file.hpp"
 #include "scene/units.hpp"
 
@@ -56,93 +56,37 @@ void note(Scene& scene, const std::string& given) {
     throw ModelError(say("--input {}={}: {}", name, how, why));
 }
 
-using Row = std::pair<double, double>;
-
-constexpr std::size_t most_rows = 500;
-
-/// A header may come first; lines that are empty are left out.
-std::vector<Row> rows_of(const std::string& name, const std::string& file) {
-    std::vector<Row> rows;
-    std::istringstream text(text_of_file(file));
-    std::size_t count = 0;
-    for (std::string line; std::getline(text, line);) {
-        ++count;
-        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-        const std::vector<std::string> fields = at_commas(line);
-        Row row;
-        try {
-            if (fields.size() != 2) throw std::invalid_argument("");
-            row = {std::stod(fields[0]), std::stod(fields[1])};
-        } catch (const std::exception&) {
-            if (rows.empty() && count == 1) continue;  // the names of the columns
-            refuse(name, file,
-                   say("line {} is '{}'; expected a time and a value with a comma between", count, line));
-        }
-        if (!std::isfinite(row.first) || !std::isfinite(row.second))
-            refuse(name, file, say("line {} has a value that is not finite", count));
-        if (!rows.empty() && !(row.first > rows.back().first))
-            refuse(name, file, say("the time in line {} is not later than the one before", count));
-        rows.push_back(row);
-    }
-    if (rows.empty()) refuse(name, file, say("there is no row; expected a time and a value in each line"));
-    if (rows.size() > most_rows)
-        refuse(name, file,
-               say("there are {} rows; a run takes at most {}: leave out those between which the input is nearly "
-                   "linear",
-                   rows.size(), most_rows));
-    return rows;
+/// A name for the table that the scene has not.
+std::string free_name(const Scene& scene, std::string name) {
+    const KnownNames names(scene);
+    do name += "_of_t";
+    while (names.has(name));
+    return name;
 }
 
-TreePtr made(Tree tree) {
-    return std::make_shared<const Tree>(std::move(tree));
-}
-
-TreePtr literal(double value) {
-    const TreePtr size = made({.kind = Tree::Kind::number, .text = fmt::format("{:.17g}", std::abs(value))});
-    return value < 0 ? made({.kind = Tree::Kind::negate, .text = {}, .args = {size}}) : size;
-}
-
-TreePtr after(double time) {
-    return made({.kind = Tree::Kind::sum,
-                 .text = {},
-                 .args = {made({.kind = Tree::Kind::name, .text = "t"}), literal(-time)}});
-}
-
-/// Σ (v_k + s_k (t − t_k)) (σ_k − σ_{k+1})/2 with σ_k = sign(t − t_k): all terms but one are exactly zero.
-TreePtr linear_between(const std::vector<Row>& rows) {
-    const auto sign = [](double time) {
-        return made({.kind = Tree::Kind::call, .text = "sign", .args = {after(time)}});
-    };
-    const auto minus = [](TreePtr x) { return made({.kind = Tree::Kind::negate, .text = {}, .args = {x}}); };
-    const auto sum = [](std::vector<TreePtr> args) {
-        return made({.kind = Tree::Kind::sum, .text = {}, .args = std::move(args)});
-    };
-    const auto half_of = [](TreePtr value, TreePtr switches) {
-        return made({.kind = Tree::Kind::product, .text = {}, .args = {literal(0.5), value, switches}});
-    };
-    std::vector<TreePtr> terms{
-        half_of(literal(rows.front().second), sum({literal(1), minus(sign(rows[0].first))})),
-        half_of(literal(rows.back().second), sum({literal(1), sign(rows.back().first)}))};
-    for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
-        const double slope = (rows[k + 1].second - rows[k].second) / (rows[k + 1].first - rows[k].first);
-        const TreePtr rise =
-            made({.kind = Tree::Kind::product, .text = {}, .args = {literal(slope), after(rows[k].first)}});
-        terms.push_back(half_of(sum({literal(rows[k].second), rise}),
-                                sum({sign(rows[k].first), minus(sign(rows[k + 1].first))})));
-    }
-    return sum(std::move(terms));
+/// The input as a call of the table, which joins the functions of the scene.
+Expression by_table(Scene& scene, const std::string& name, const std::string& file) {
+    PointRows rows = rows_in_text(text_of_file(file, most_point_bytes), 1);
+    if (rows.rows.size() == 1) rows.rows.push_back({{rows.rows[0].numbers[0] + 1, rows.rows[0].numbers[1]}, 0});
+    MadeTable made = table_of(std::move(rows), {.arguments = {"t"},
+                                                .outside = TabulatedFunction::Outside::hold,
+                                                .sizes = {1, unit_of_name(scene, name).size}});
+    if (!made.table) refuse(name, file, made.mistake);
+    note(scene, fmt::format("{}: {}", name, made.table->fingerprint()));
+    const std::string called = free_name(scene, name);
+    const auto input = std::find_if(scene.inputs.begin(), scene.inputs.end(),
+                                    [&](const Input& one) { return one.name.text == name; });
+    const Place place = input->name.place;
+    scene.functions.push_back(
+        {.name = {called, place}, .arguments = {{"t", place}}, .table = std::move(made.table)});
+    const auto time = std::make_shared<const Tree>(Tree{.kind = Tree::Kind::name, .text = "t"});
+    return {.text = file,
+            .places = {},
+            .tree = std::make_shared<const Tree>(Tree{.kind = Tree::Kind::call, .text = called, .args = {time}})};
 }
 
 Expression function_of(Scene& scene, const std::string& name, const std::string& how) {
-    if (how.ends_with(".csv")) {
-        std::vector<Row> rows = rows_of(name, how);
-        const double size = unit_of_name(scene, name).size;
-        for (Row& row : rows) {
-            note(scene, fmt::format("{} = {:.17g} at {:.17g}", name, row.second, row.first));
-            row.second *= size;
-        }
-        return {.text = how, .places = {}, .tree = linear_between(rows)};
-    }
+    if (how.ends_with(".csv")) return by_table(scene, name, how);
     std::vector<Diagnostic> mistakes;
     const KnownNames names(scene);
     note(scene, fmt::format("{} = {}", name, how));

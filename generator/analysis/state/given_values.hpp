@@ -25,8 +25,7 @@ namespace alembert {
 Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::string>>& at);
 
 /// Throws ModelError for a name that is no input from outside, for an expression that holds other names than
-/// parameters, inputs and t, and for a table with a line that is no two numbers, whose times do not grow, or that
-/// has more than 500 lines.
+/// parameters, inputs and t, and for a table with a line that is no two numbers, or whose times do not grow.
 Scene with_input(Scene scene, const std::string& name, const std::string& how);
 
 }  // namespace alembert

@@ -259,7 +259,7 @@ private:
 
 std::vector<Diagnostic> likely_mistakes(const Scene& scene, const Mechanism& mechanism, const Overrides& at) {
     // What depends on open functions has no numbers.
-    if (mechanism.masses.empty() || !mechanism.symbols->functions().empty()) return {};
+    if (mechanism.masses.empty() || !mechanism.open_functions().empty()) return {};
     const Start start = start_of(mechanism, at);
     return LikelyMistakes(scene, mechanism, start).found();
 }

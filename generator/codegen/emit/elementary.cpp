@@ -18,7 +18,8 @@ std::set<Op> elementary_functions(const Program& program) {
     for (const Root& root : program.roots) roots.push_back(root.node);
     std::set<Op> functions;
     for (const int id : program.needed(roots)) {
-        if (program[id].op == Op::unspecified) program.refuse_unspecified(program[id]);
+        if (program[id].op == Op::unspecified && program.table_of(program[id]) == nullptr)
+            program.refuse_unspecified(program[id]);
         if (program[id].op >= Op::sin) functions.insert(program[id].op);
     }
     return functions;

@@ -16,6 +16,7 @@
 #include "codegen/emit/layout.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/table_text.hpp"
 #include "codegen/emit/templates.hpp"
 #include "program/processor.hpp"
 
@@ -121,6 +122,7 @@ public:
         file_.set("batch", options_.batch);
         file_.set("types", true);
         add_elementary(file_);
+        file_.set("tables", table_functions(p_, options_.language));
         add_javascript();
         const std::string name = ascii_identifier(p_.name);
         const auto rendered = [&](std::string_view shape) {
@@ -301,7 +303,8 @@ private:
     void add_javascript() {
         std::string library;
         const auto add = [&](const std::string& name) { library += (library.empty() ? "" : ", ") + name; };
-        for (const Op op : elementary_functions(p_)) add(name_of(op));
+        for (const Op op : elementary_functions(p_))
+            if (op != Op::unspecified) add(name_of(op));
         if (uses_pi()) add("PI");
         file_.set("has_math", !library.empty());
         file_.set("math", library);

@@ -80,6 +80,7 @@ Names::Names(CodeLanguage language) {
 
 bool Names::take(std::string& name) {
     if (is_reserved(name)) name += '_';
+    if (name.starts_with("table_")) name.insert(5, 1, 's');  // functions by points begin so (table_text.hpp)
     return taken_.insert(name).second;
 }
 

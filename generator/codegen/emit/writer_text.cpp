@@ -6,6 +6,7 @@
 
 #include "codegen/emit/expression.hpp"
 #include "codegen/emit/numbers.hpp"
+#include "codegen/emit/table_text.hpp"
 #include "codegen/emit/writer.hpp"
 
 namespace alembert {
@@ -72,6 +73,15 @@ std::string Writer::text(int id, int precedence) {
     } else if (node.op == Op::product) {
         own = multiplicative;
         result = product_text(id);
+    } else if (node.op == Op::unspecified) {
+        ++operations_;
+        result = table_call(program_, node) + "(";
+        const Program::TableCall call = program_.table_call(node);
+        std::vector<int> args(call.argument.begin(), call.argument.begin() + static_cast<long>(call.arguments));
+        if (call.is_held)
+            args.insert(args.end(), call.side.begin(), call.side.begin() + static_cast<long>(call.arguments));
+        for (const int arg : args) result += (result.ends_with('(') ? "" : ", ") + text(arg, additive);
+        result += ")";
     } else {
         ++operations_;
         result = fmt::format("{}({}", name_of(node.op), text(node.args[0], additive));

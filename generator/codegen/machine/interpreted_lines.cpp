@@ -9,10 +9,12 @@ namespace alembert::machine {
 
 namespace {
 
-double called(const void* function, const double* a, const double* b) {
-    void* const code = const_cast<void*>(function);
-    if (b == nullptr) return reinterpret_cast<double (*)(double)>(code)(*a);
-    return reinterpret_cast<double (*)(double, double)>(code)(*a, *b);
+double called(const Line& line, const double* value) {
+    void* const code = const_cast<void*>(line.function);
+    const auto of = [&](std::size_t k) { return value[line.of[k]]; };
+    if (line.of[1] < 0) return reinterpret_cast<double (*)(double)>(code)(of(0));
+    if (line.of[2] < 0) return reinterpret_cast<double (*)(double, double)>(code)(of(0), of(1));
+    return reinterpret_cast<double (*)(double, double, double)>(code)(of(0), of(1), of(2));
 }
 
 double computed(const Line& line, const double* value) {
@@ -37,7 +39,7 @@ double computed(const Line& line, const double* value) {
             return line.minus_rest ? product - of(2) : product + of(2);
         }
         case Line::Kind::call:
-            return called(line.function, &value[line.of[0]], line.of[1] >= 0 ? &value[line.of[1]] : nullptr);
+            return called(line, value);
         default:
             throw std::logic_error("a line of packs in a function for one system");
     }

@@ -343,7 +343,10 @@ private:
             of(id);
             return;
         }
-        if (node.op == Op::unspecified) p_.refuse_unspecified(node);
+        if (node.op == Op::unspecified) {
+            value_[id] = {table(node)};
+            return;
+        }
         if (is_sine(node)) {
             value_[id] = {sine_and_cosine(node.args[0])[node.op == Op::sin ? 0 : 1]};
             return;
@@ -357,6 +360,25 @@ private:
             value_[id] = {add({.kind = Line::Kind::call,
                                .of = {x, node.args.size() > 1 ? whole(of(node.args[1])) : -1, -1},
                                .function = function_of(node.op)})};
+    }
+
+    /// A call with the address of the table's call in the bits of its first argument; sides that are held choose
+    /// another one.
+    int table(const Node& node) {
+        const Program::TableCall call = p_.table_call(node);
+        int of = number(bits_for_code(p_.table_of(node)->call(call.orders, call.is_held)));
+        for (std::size_t k = 0; call.is_held && k < call.arguments; ++k)
+            of = add({.kind = Line::Kind::call,
+                      .of = {of, whole(this->of(call.side[k])), -1},
+                      .function = reinterpret_cast<const void*>(held_for_code)});
+        const int x = whole(this->of(call.argument[0]));
+        if (call.arguments == 1)
+            return add({.kind = Line::Kind::call,
+                        .of = {of, x, -1},
+                        .function = reinterpret_cast<const void*>(value_for_code)});
+        return add({.kind = Line::Kind::call,
+                    .of = {of, x, whole(this->of(call.argument[1]))},
+                    .function = reinterpret_cast<const void*>(value_of_two_for_code)});
     }
 
     Signed times(Signed a, Signed b) {

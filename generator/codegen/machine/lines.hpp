@@ -45,7 +45,7 @@ struct Line {
         select,       ///< of[1] where the bits of of[2] are set, else of[0]; with four lanes its highest bits tell
         turn_sign,    ///< of[0] with its sign turned where that of of[1] is set
         fused,        ///< ± of[0]·of[1] ± of[2]
-        call,         ///< function(of[0]), or function(of[0], of[1])
+        call,         ///< function(of[0]), or function(of[0], of[1]), or function of all three
         sines,        ///< the group `place`
         store,        ///< of[0] to the array `argument` at `place`
         pair,         ///< of[0] and of[1] side by side

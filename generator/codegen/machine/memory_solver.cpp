@@ -37,13 +37,15 @@ struct Tables {
           speeds(labels_of(words.u())),
           parameters(labels_of(words.par())),
           outputs(root_names(p, {Group::output, Group::speed})),
-          events(root_names(p, {Group::event})) {
+          events(root_names(p, {Group::event})),
+          tables(p.tables) {
         for (const Quantity& parameter : p.parameters) values.push_back(parameter.value);
     }
 
     std::string scene, formulation;
     NameList coordinates, speeds, parameters, outputs, events;
     std::vector<double> values;
+    std::vector<std::shared_ptr<const TabulatedFunction>> tables;  ///< to which the code has pointers
     std::shared_ptr<const void> code;
     std::vector<int> rows, columns, parameter_rows, parameter_columns;
     alembert_solver_table solver{};
@@ -103,9 +105,11 @@ public:
     std::shared_ptr<const alembert_pack_table> packs() {
         struct Packs {
             alembert_pack_table table{};
+            std::vector<std::shared_ptr<const TabulatedFunction>> tables;
             std::shared_ptr<const void> code;
         };
         const auto packs = std::make_shared<Packs>();
+        packs->tables = p_.tables;
         alembert_pack_table& t = packs->table;
         t.abi = abi_version;
         t.lanes = alembert::lanes;

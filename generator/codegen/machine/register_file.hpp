@@ -45,7 +45,10 @@ protected:
         saved_ = calls ? l_.arrays + first_array() : 0;
         const auto in_units = [&](std::int32_t bytes) { return (bytes + unit_ - 1) / unit_ * unit_; };
         time_ = in_units(8 * saved_);
-        block_ = time_ + (is_packed() ? 2 * unit_ : 8);  // packed: for the arguments of a call
+        const bool of_three = std::any_of(l_.list.begin(), l_.list.end(), [](const Line& line) {
+            return line.kind == Line::Kind::call && line.of[2] >= 0;
+        });
+        block_ = time_ + (is_packed() ? (of_three ? 3 : 2) * unit_ : 8);  // packed: for the arguments of a call
         if (!is_packed() && has_fours_) block_ = (block_ + 15) / 16 * 16;
         frame_ = block_ + unit_ * l_.block;
     }

@@ -277,7 +277,7 @@ private:
     }
 
     void call_packed(const Line& line) {
-        for (int k = 0; k < 2 && line.of[k] >= 0; ++k) {
+        for (int k = 0; k < 3 && line.of[k] >= 0; ++k) {
             load(line.of[k]);
             code_.store({Base::rsp, time_ + unit_ * k}, reg_[line.of[k]]);
         }
@@ -286,14 +286,25 @@ private:
         code_.lea(code_.rsi, code_.at({Base::rsp, time_}));
         if (line.of[1] < 0)
             after_call(l_.lanes == 8 ? each_for_code : each_of_four_for_code);
+        else if (line.of[2] >= 0)
+            after_call(l_.lanes == 8 ? each_triple_for_code : each_triple_of_four_for_code);
         else
             after_call(l_.lanes == 8 ? each_pair_for_code : each_pair_of_four_for_code);
         code_.load(0, {Base::rsp, time_});
         finish(line, 0);
     }
 
+    void call_of_three(const Line& line) {
+        save_all();
+        for (const int v : line.of) save(v);
+        for (int k = 0; k < 3; ++k) code_.load(k, memory(line.of[static_cast<std::size_t>(k)]));
+        after_call(line.function);
+        finish(line, 0);
+    }
+
     void call(const Line& line) {
         if (is_packed()) return call_packed(line);
+        if (line.of[2] >= 0) return call_of_three(line);
         save_all();
         const int a = line.of[0], b = line.of[1];
         int rb = b >= 0 ? reg_[b] : -1;

@@ -252,11 +252,17 @@ private:
         call("iii>", module_.host_.sines);
     }
 
+    static const void* each_of(std::uint64_t arguments) {
+        return arguments == 1   ? reinterpret_cast<const void*>(each_for_code)
+               : arguments == 2 ? reinterpret_cast<const void*>(each_pair_for_code)
+                                : reinterpret_cast<const void*>(each_triple_for_code);
+    }
+
     /// A function of eight values, which stand behind the block of sines.
     void call_packed(const Line& line, const std::array<Operand, 3>& x, std::uint32_t to) {
-        const bool is_pair = line.of[1] >= 0;
+        const std::uint64_t arguments = line.of[1] < 0 ? 1 : line.of[2] < 0 ? 2 : 3;
         const auto place = static_cast<std::uint64_t>(l_.block);
-        for (std::uint64_t k = 0; k < (is_pair ? 2U : 1U); ++k)
+        for (std::uint64_t k = 0; k < arguments; ++k)
             for (std::uint32_t part = 0; part < parts_; ++part) {
                 put_constant(code_, module_.host_.block);
                 push(x[k], part);
@@ -264,8 +270,7 @@ private:
             }
         put_constant(code_, module_.host_.place_of(line.function));
         put_constant(code_, module_.host_.block + 8 * lanes_ * static_cast<std::uint32_t>(l_.block));
-        call("ii>", module_.host_.place_of(is_pair ? reinterpret_cast<const void*>(each_pair_for_code)
-                                                   : reinterpret_cast<const void*>(each_for_code)));
+        call("ii>", module_.host_.place_of(each_of(arguments)));
         for (std::uint32_t part = 0; part < parts_; ++part) {
             put_constant(code_, module_.host_.block);
             at_place(load_64, place, part);
@@ -293,6 +298,7 @@ private:
         if (line.kind == Line::Kind::store) array(line.argument);
         push(x[0], part);
         if (line.of[1] >= 0) push(x[1], part);
+        if (line.kind == Line::Kind::call && line.of[2] >= 0) push(x[2], part);
         switch (line.kind) {
             case Line::Kind::add:
                 return instruction(add);
@@ -309,7 +315,10 @@ private:
             case Line::Kind::negative:
                 return instruction(negative);
             case Line::Kind::call:
-                return call(line.of[1] >= 0 ? "dd>d" : "d>d", module_.host_.place_of(line.function));
+                return call(line.of[1] < 0   ? "d>d"
+                            : line.of[2] < 0 ? "dd>d"
+                                             : "ddd>d",
+                            module_.host_.place_of(line.function));
             case Line::Kind::store:
                 return at_place(store_64, static_cast<std::uint64_t>(line.place), part);
             default:

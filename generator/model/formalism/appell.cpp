@@ -31,6 +31,8 @@ ex acceleration_energy(const Mechanism& m, const InSpeeds& motion) {
         SourceScope source(z, label(body.origin));
         const Vector3 a = derivative(motion.short_in_speeds(body.velocity));
         S.push_back(z.name(body.mass * dot(a, a, z) / 2));
+        if (!body.mass_rate.is_zero())
+            S.push_back(z.name(body.mass_rate * dot(motion.short_in_speeds(body.velocity), a, z)));
         if (!body.rotation) continue;
         const std::array<ex, 6> I = central_inertia(body, z);
         const Vector3 w = motion.short_in_speeds(body.rotation->w_NB_B), alpha = derivative(w);

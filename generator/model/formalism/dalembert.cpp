@@ -19,6 +19,7 @@ struct Moving {
     std::vector<std::pair<ex, ex>> pairs;   ///< position, inertia force
     std::vector<std::array<std::size_t, 2>> couples;
     std::vector<ex> masses;  ///< of pairs of positions, whose virtual work is mass·a(first)·δ(second)
+    std::vector<std::pair<std::size_t, ex>> leaving;  ///< m' v of a mass that changes
 };
 
 Moving moving(const Mechanism& m) {
@@ -39,6 +40,8 @@ Moving moving(const Mechanism& m) {
         SourceScope source(z, label(body.origin));
         const std::size_t centre = add_vector(body.position);
         couple(centre, centre, body.mass);
+        for (std::size_t k = 0; k < 3 && !body.mass_rate.is_zero(); ++k)
+            result.leaving.emplace_back(centre + k, body.mass_rate * body.velocity[k]);
         if (!body.rotation) continue;
         const std::array<ex, 6> I = central_inertia(body, z);
         const ex half_trace = (I[0] + I[1] + I[2]) / 2;
@@ -60,6 +63,7 @@ Moving moving(const Mechanism& m) {
     std::vector<GiNaC::exvector> force(result.places.size());
     for (std::size_t c = 0; c < result.couples.size(); ++c)
         force[result.couples[c][1]].push_back(-result.masses[c] * result.accelerations[result.couples[c][0]]);
+    for (const auto& [place, momentum] : result.leaving) force[place].push_back(-momentum);
     for (std::size_t k = 0; k < force.size(); ++k)
         result.pairs.emplace_back(result.places[k], z.name(GiNaC::add(std::move(force[k]))));
     return result;

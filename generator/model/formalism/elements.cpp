@@ -114,6 +114,11 @@ std::array<ex, 6> central_inertia(const MassElement& body, Intermediates& z) {
     return I;
 }
 
+Vector3 with_mass_rate(const MassElement& body, const Vector3& inertia, const Vector3& velocity,
+                       Intermediates& z) {
+    return body.mass_rate.is_zero() ? inertia : add(inertia, scale(body.mass_rate, velocity, z), z);
+}
+
 bool masses_are_known(const Mechanism& m) {
     return !m.given_lagrangian &&
            (m.kinetic.empty() || m.kinetic.back().origin.kind != Origin::Kind::given_kinetic);

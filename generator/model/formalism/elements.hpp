@@ -30,6 +30,9 @@ std::vector<GiNaC::ex> work_of_loads(const Mechanism& mechanism, bool dissipativ
 /// them about another point.
 std::array<GiNaC::ex, 6> central_inertia(const MassElement& body, Intermediates& z);
 
+/// The rate of the momentum of a body, m a + m' v, from m a, where its mass changes; m a where it does not.
+Vector3 with_mass_rate(const MassElement& body, const Vector3& inertia, const Vector3& velocity, Intermediates& z);
+
 /// Does all kinetic energy belong to particles and bodies?
 bool masses_are_known(const Mechanism& mechanism);
 

@@ -61,6 +61,7 @@ public:
         for (int k = 0; k < 3; ++k) tree_.gravity[k] = named(m_.gravity[k]);
         for (const MassElement& body : m_.masses) {
             label_ = shown_label(body.origin);
+            if (!body.mass_rate.is_zero()) refuse(say("the mass of {} changes", label_));
             add(body);
             if (obstacle_) return *obstacle_;
         }

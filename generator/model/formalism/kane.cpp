@@ -64,7 +64,9 @@ KaneForces forces_of(const InSpeeds& motion, const Mechanism& m) {
         };
         add_share(
             partial.bodies[b].velocity, [&](const Vector3& v) { return scale(body.mass, v, z); },
-            scale(body.mass, motion.without_acceleration(motion.short_in_speeds(body.velocity)), z));
+            with_mass_rate(body,
+                           scale(body.mass, motion.without_acceleration(motion.short_in_speeds(body.velocity)), z),
+                           motion.short_in_speeds(body.velocity), z));
         if (!body.rotation) continue;
         const std::array<ex, 6> I = central_inertia(body, z);
         const Vector3 w = motion.short_in_speeds(body.rotation->w_NB_B);

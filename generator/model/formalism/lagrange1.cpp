@@ -89,6 +89,8 @@ Equations lagrange1(const Mechanism& mechanism) {
     // In these coordinates the generalized force of a force is the force itself; a force along an expression acts
     // along the gradient of that expression.
     std::vector<GiNaC::exvector> own(m.q.size());
+    for (int i = 0; i < m.size(); ++i)  // of a mass that changes, (m x')' = m x'' + m' x'
+        if (!owner[i]->mass_rate.is_zero()) own[i].push_back(-owner[i]->mass_rate * m.qdot[i]);
     for (const PlacedForce& force : conservative_forces(m)) {
         const std::optional<int> i = coordinate_of(force.place, m);
         if (i && *i < 0) continue;

@@ -35,7 +35,10 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
         };
         add_rows(
             motion.J_T, [&](const Vector3& v) { return scale(body.mass, v, z); },
-            scale(body.mass, add(m.gravity, scale(-1, motion.a_bar, z), z), z));
+            scale(-1,
+                  with_mass_rate(body, scale(body.mass, add(motion.a_bar, scale(-1, m.gravity, z), z), z),
+                                 body.velocity, z),
+                  z));
         if (!body.rotation) continue;
         const std::array<ex, 6> I = central_inertia(body, z);
         const Vector3 gyroscopic = cross(motion.w, inertia_times(I, motion.w, z), z);

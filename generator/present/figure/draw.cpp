@@ -32,7 +32,7 @@ bool has_value(const Mechanism& m, const GiNaC::ex& e) {
     if (m.z->tree_size(e) > longest) return true;
     const GiNaC::ex whole = m.z->expand(e);
     for (auto part = whole.preorder_begin(); part != whole.preorder_end(); ++part)
-        if (unspecified_call(*part)) return false;
+        if (const auto call = unspecified_call(*part); call && m.table_of(call->function) == nullptr) return false;
     return true;
 }
 
@@ -54,7 +54,7 @@ Asked asked(Sketch& sketch) {
     for (const Torque& t : sketch.scene.torques) result.torques.push_back(vector(t.vector, t.axes));
     for (const Impulse& s : sketch.scene.impulses) result.impulses.push_back(vector(s.vector, s.axes));
     for (const RollingRule& r : sketch.scene.rolling) result.contacts.push_back(vector(r.contact, r.axes));
-    const bool has_functions = !sketch.scene.functions.empty();
+    const bool has_functions = !m.open_functions().empty();
     for (const Mechanism::Constraint& c : m.constraints) {
         const bool is_open = has_functions && std::any_of(c.row.begin(), c.row.end(),
                                                           [&](const GiNaC::ex& e) { return !has_value(m, e); });

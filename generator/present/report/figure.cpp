@@ -66,7 +66,7 @@ std::string figure_of(const Scene& scene) {
         assemble(assembled, mechanism, lower_constraints(mechanism), {}, false);
         start = assembled;
     } catch (const ModelError&) {  // constraints with functions that the scene leaves open have no values
-        if (scene.functions.empty()) throw;
+        if (mechanism.open_functions().empty()) throw;
     }
     Pose pose = pose_at(drawing, start.state());
     // A force that is zero at the start is shown at the point where it will act.

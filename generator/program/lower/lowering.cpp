@@ -135,6 +135,8 @@ int Lowering::symbol(const GiNaC::symbol& s) {
             const auto position = static_cast<std::size_t>(info.index);
             if (program_.functions.size() <= position) program_.functions.resize(position + 1);
             program_.functions[position] = info.name;
+            program_.tables.resize(program_.functions.size());
+            program_.tables[position] = m_.tables.at(position);
             return program_.number(info.index);
         }
         default:

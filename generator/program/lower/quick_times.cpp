@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "program/known_knots.hpp"
 #include "program/tape.hpp"
 
 namespace alembert {
@@ -37,6 +39,91 @@ std::vector<int> inputs_of(const Program& program) {
             inputs.push_back(id);
     }
     return inputs;
+}
+
+/// The nodes that contain a call of a table whose knots are known, and the calls.
+struct KnownCalls {
+    explicit KnownCalls(const Program& program) {
+        std::vector<int> roots = program.right_hand_side();
+        const std::vector<int> events = program.nodes_of(Group::event);
+        roots.insert(roots.end(), events.begin(), events.end());
+        for (const int id : program.needed(roots)) {
+            const Node& node = program[id];
+            bool contains =
+                std::any_of(node.args.begin(), node.args.end(), [this](int arg) { return above.contains(arg); });
+            if (node.op == Op::unspecified && program.table_of(node) != nullptr) {
+                const Program::TableCall call = program.table_call(node);
+                for (std::size_t k = 0; k < call.arguments; ++k)
+                    if (has_known_knots(program, *program.table_of(node), call, k)) {
+                        calls.push_back({program.shared_table_of(node), call.orders, call.argument[k], k});
+                        contains = true;
+                    }
+            }
+            if (contains) above.insert(id);
+        }
+    }
+
+    struct One {
+        std::shared_ptr<const TabulatedFunction> table;
+        TabulatedFunction::Orders orders;
+        int argument;
+        std::size_t axis;
+    };
+    std::vector<One> calls;
+    std::set<int> above;
+};
+
+/// The times between at which one of the calls is at a knot, in order.
+std::vector<double> times_of_knots(const Program& program, const KnownCalls& known,
+                                   const std::vector<double>& parameters, double start, double end) {
+    constexpr double most = 1e6;
+    std::vector<double> times;
+    for (const KnownCalls::One& one : known.calls) {
+        Tape<double> tape(program, {one.argument}, parameters);
+        double first = 0, last = 0;
+        tape(start, nullptr, nullptr, &first);
+        tape(end, nullptr, nullptr, &last);
+        const TableAxis& axis = one.table->axes()[one.axis];
+        const double low = std::min(first, last), high = std::max(first, last);
+        const auto turn_of = [&](double x) { return std::floor((x - axis.at.front()) / axis.period); };
+        const double turns = axis.period > 0 ? turn_of(high) - turn_of(low) + 1 : 1;
+        const std::vector<int>& kinks = kinks_of(*one.table, one.axis, one.orders);
+        if (!(high > low) || !(turns * static_cast<double>(kinks.size()) < most)) continue;
+        for (double turn = 0; turn < turns; ++turn)
+            for (const int kink : kinks) {
+                double x = axis.at[static_cast<std::size_t>(kink)];
+                if (axis.period > 0) x += (turn_of(low) + turn) * axis.period;
+                const double t = start + (end - start) * ((x - first) / (last - first));
+                if (t > start && t < end) times.push_back(t);
+            }
+    }
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+/// A step that begins earlier ends at each of these times, also where they lie in intervals that are quick.
+std::vector<InputTimeScale> with_ends_at(std::vector<InputTimeScale> quick, const std::vector<double>& times) {
+    if (times.empty()) return quick;
+    std::vector<InputTimeScale> result;
+    auto next = times.begin();
+    const auto until = [&](double end) {
+        for (; next != times.end() && *next < end; ++next)
+            result.push_back({.from = *next, .to = *next, .is_switch = true});
+    };
+    for (InputTimeScale q : quick) {
+        until(q.from);
+        for (; next != times.end() && *next < q.to; ++next) {
+            if (*next == q.from) continue;
+            InputTimeScale before = q;
+            before.to = *next;
+            result.push_back(before);
+            q.from = *next, q.enter = 0;
+        }
+        result.push_back(q);
+    }
+    until(HUGE_VAL);
+    return result;
 }
 
 class Search {
@@ -227,9 +314,13 @@ private:
 
 std::vector<InputTimeScale> quick_times(const Program& program, const std::vector<double>& parameters,
                                         double start, double end) {
+    if (!(end > start) || !std::isfinite(end - start)) return {};
     std::vector<int> inputs = inputs_of(program);
-    if (inputs.empty() || !(end > start) || !std::isfinite(end - start)) return {};
-    return Search(program, std::move(inputs), parameters, start, end).go();
+    const KnownCalls known(program);
+    std::erase_if(inputs, [&](int id) { return known.above.contains(id); });
+    std::vector<InputTimeScale> found;
+    if (!inputs.empty()) found = Search(program, std::move(inputs), parameters, start, end).go();
+    return with_ends_at(std::move(found), times_of_knots(program, known, parameters, start, end));
 }
 
 std::vector<InputTimeScale> sudden_times(const std::vector<InputTimeScale>& quick) {

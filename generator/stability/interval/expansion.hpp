@@ -50,6 +50,7 @@ private:
 
 class Expansion {
 public:
+    static Expansion of_double(double x) { return Expansion(RealBall(cln::rational(cln::cl_DF(x)))); }
     Expansion() : c_{RealBall(0)} {}
     Expansion(int n) : c_{RealBall(n)} {}           // NOLINT: a number is a number
     Expansion(bool b) : c_{RealBall(b ? 1 : 0)} {}  // NOLINT
@@ -104,6 +105,11 @@ private:
     const Monomials* monomials_ = nullptr;
     std::vector<RealBall> c_;  ///< by monomial; a single one for a constant
 };
+
+/// A table is made of pieces, and it is not certain that a neighbourhood lies in one of them.
+inline double place_of(const Expansion&) {
+    throw NotAnalytic(say("a table is made of pieces"));
+}
 
 template <>
 inline Expansion real_of<Expansion>(const Rational& r) {

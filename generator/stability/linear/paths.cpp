@@ -11,6 +11,24 @@ constexpr long double known_to = 1e-13L;  // accuracy of the state, relative to 
 constexpr long double parameter_known_to = 1e-15L;
 constexpr long double equal_to = 1e-10L;  // slopes that differ by less are equal
 
+/// At a knot of a table at which a derivative jumps.
+bool is_at_knot(const Program& program, const Node& node, const std::vector<PuiseuxSeries>& value) {
+    const Program::TableCall call = program.table_call(node);
+    const TabulatedFunction& table = *program.table_of(node);
+    if (call.orders[0] >= TabulatedFunction::side_function) return false;
+    for (std::size_t k = 0; k < call.arguments; ++k) {
+        const PuiseuxSeries& x = value[call.argument[k]];
+        const TableAxis& axis = table.axes()[k];
+        const long double place = x.at(0).value, allowed = known_to * std::max(1.0L, std::abs(place));
+        for (const int kink : axis.kinks[call.orders[0] + call.orders[1] > 0 ? 1 : 0]) {
+            long double distance = place - axis.at[static_cast<std::size_t>(kink)];
+            if (axis.period > 0) distance = std::remainder(distance, static_cast<long double>(axis.period));
+            if (std::abs(distance) <= allowed) return true;
+        }
+    }
+    return false;
+}
+
 /// Is the argument of this node's function at a point where the function is not analytic, or has it no value?
 /// `value` are the values at a single point.
 bool is_critical(const Program& program, int id, const std::vector<PuiseuxSeries>& value) {
@@ -38,6 +56,8 @@ bool is_critical(const Program& program, int id, const std::vector<PuiseuxSeries
         case Op::asin:
         case Op::acos:
             return ((1 - x) * (1 + x)).side() == 0;
+        case Op::unspecified:
+            return is_at_knot(program, node, value);
         default:
             return false;
     }

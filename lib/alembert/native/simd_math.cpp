@@ -157,6 +157,14 @@ void each_pair_of_four_for_code(double (*f)(double, double), double* values) {
     for (int i = 0; i < 4; ++i) values[i] = f(values[i], values[i + 4]);
 }
 
+void each_triple_for_code(double (*f)(double, double, double), double* values) {
+    for (int i = 0; i < 8; ++i) values[i] = f(values[i], values[i + 8], values[i + 16]);
+}
+
+void each_triple_of_four_for_code(double (*f)(double, double, double), double* values) {
+    for (int i = 0; i < 4; ++i) values[i] = f(values[i], values[i + 4], values[i + 8]);
+}
+
 double sign_for_code(double x) {
     return std::isnan(x) ? x : static_cast<double>(x > 0) - static_cast<double>(x < 0);
 }

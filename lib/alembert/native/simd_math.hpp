@@ -39,6 +39,8 @@ void each_for_code(double (*f)(double), double* values);
 void each_pair_for_code(double (*f)(double, double), double* values);
 void each_of_four_for_code(double (*f)(double), double* values);
 void each_pair_of_four_for_code(double (*f)(double, double), double* values);
+void each_triple_for_code(double (*f)(double, double, double), double* values);
+void each_triple_of_four_for_code(double (*f)(double, double, double), double* values);
 
 double sign_for_code(double x);
 double lesser_for_code(double x, double y);   ///< NaN if one of the two is

@@ -50,6 +50,7 @@ Bounds bounds_of(const std::vector<EventInstruction>& event, const double* param
             case Op::atan2: result = atan2(arg(0), arg(1)); break;
             case Op::min: result = least_of(arg(0), arg(1)); break;
             case Op::max: result = -1.0 * least_of(-1.0 * arg(0), -1.0 * arg(1)); break;
+            case Op::side: result = step.table->side_bounds(step.index, arg(0)); break;
         }
         // clang-format on
         value.push_back(result);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "alembert/base/interval.hpp"
+#include "alembert/base/tabulated_function.hpp"
 
 namespace alembert {
 
@@ -45,16 +46,18 @@ struct EventInstruction {
         atan2,
         min,
         max,
-    };  // clang-format would put each on a line of its own
+        side,  ///< the side function `index` of a table
+    };         // clang-format would put each on a line of its own
     struct Term {
         int arg;            ///< an earlier instruction
         double factor = 1;  ///< in a sum
         int exponent = 1;   ///< in a product
     };
     Op op;
-    int index = 0;      ///< of a parameter, or of a component of the state
+    int index = 0;      ///< of a parameter, or of a component of the state; the order of a side function
     double number = 0;  ///< the number, or the constant of a sum
     std::vector<Term> terms = {};
+    std::shared_ptr<const TabulatedFunction> table = {};
 };
 
 struct EventCode {

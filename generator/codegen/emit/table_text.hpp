@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Functions by points in emitted code: their numbers, and a function for each derivative that the program calls.
+///
+///     table_functions(program, CodeLanguage::c);     // "static const double table_f_at[] = {0, 1, 3}; …"
+///     table_call(program, node);                     // "table_f_1": the first derivative of f
+
+#include <string>
+
+#include "codegen/emit/statement.hpp"
+#include "program/program.hpp"
+
+namespace alembert {
+
+/// Empty if no root of the program needs one. Throws ModelError for a function that the scene leaves open.
+std::string table_functions(const Program& program, CodeLanguage language);
+
+/// The name of the function to call with the node's arguments, and with sides behind them where it is held. Names
+/// of scenes that begin so get another letter (Names).
+std::string table_call(const Program& program, const Node& node);
+
+}  // namespace alembert
