@@ -41,12 +41,33 @@ std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t,
 }  // namespace
 
 bool has_jumps(const Mechanism& m) {
-    return !m.unilateral.empty() || m.has_kicks();
+    return !m.unilateral.empty() || m.has_kicks() || m.has_counts();
 }
+
+namespace {
+
+/// Whether the value of each event changes only where events set states: states without a rate are all that
+/// moves it.
+std::vector<bool> of_modes(const Mechanism& m) {
+    std::vector<GiNaC::symbol> moving{m.t};
+    for (const auto* list : {&m.q, &m.qdot, &m.qddot}) moving.insert(moving.end(), list->begin(), list->end());
+    for (const Mechanism::Input& input : m.inputs)
+        moving.insert(moving.end(), input.derivative.begin(), input.derivative.end());
+    for (const Mechanism::State& z : m.states)
+        if (!z.rate.is_zero()) moving.insert(moving.end(), z.derivative.begin(), z.derivative.end());
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& c : *list) moving.push_back(c.multiplier);
+    for (const Mechanism::Unilateral& u : m.unilateral) moving.push_back(u.gap.multiplier);
+    std::vector<bool> result;
+    for (const Mechanism::Definition& event : m.events) result.push_back(!m.z->depends(event.value, moving));
+    return result;
+}
+
+}  // namespace
 
 Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view, const KickView& kicks) {
     const Mechanism& m = d.mechanism;
-    if (!m.unilateral.empty() || m.speeds.empty()) need_rates(d);
+    if (!m.unilateral.empty() || (m.speeds.empty() && m.size() > 0)) need_rates(d);
     const auto at = [state = start.state()](double t, const double* y) {
         State<double> result = state;
         result.t = t;
@@ -67,20 +88,25 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
         has_rates = has_rates || !event.rates.empty();
     }
     if (sets)
-        contacts.kicks.set = [&kicks, at](int event, double t, const double* before, double* after) {
-            kicks.set(event, at(t, before), after);
-        };
+        contacts.kicks.set = [&kicks, at](const std::vector<int>& events, double t, const double* before,
+                                          double* after) { return kicks.set(events, at(t, before), after); };
     if (has_rates)
         contacts.kicks.refusal = [&kicks, at](int event, double t, const double* before, const double* after) {
             return kicks.refusal(event, at(t, before), at(t, after));
         };
     contacts.kicks.coordinates = m.size();
-    contacts.kicks.impulse = [&kicks, &view, at](int event, double t, const double* y) {
-        const State<double> before = at(t, y);
-        const Eigen::VectorXd own = kicks.impulse(event, before), change = kicks.change_of_rates(event, before);
-        if (change.size() == 0) return own;
-        const Eigen::VectorXd needed = view.at(before).M * change;
-        return own.size() == 0 ? needed : Eigen::VectorXd(own + needed);
+    contacts.kicks.of_modes = of_modes(m);
+    contacts.kicks.impulses = [&kicks, &view, at](const std::vector<int>& events, double t, const double* before,
+                                                  const double* set) {
+        KickView::Kicks kicked = kicks.kicks(events, at(t, before));
+        Impulses result{.list = {}, .refusal = std::move(kicked.refusal)};
+        for (KickView::Kicks::Kick& one : kicked.list) {
+            Eigen::VectorXd& impulse = result.list.emplace_back(std::move(one.impulse));
+            if (one.change_of_rates.size() == 0) continue;
+            const Eigen::VectorXd needed = view.at(at(t, set)).M * one.change_of_rates;
+            impulse = impulse.size() == 0 ? needed : Eigen::VectorXd(impulse + needed);
+        }
+        return result;
     };
     contacts.kicks.passed = [&kicks, at](double t, const double* before, const double* after,
                                          const Eigen::VectorXd& acceleration) {

@@ -11,6 +11,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/libraries.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
 #include "simulate/consistent_mode.hpp"
@@ -32,13 +33,10 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
-/// Whether energy was lost: an impact has taken some of it, or an impulse or a set value has changed it.
-bool is_lossy(const HybridMotion& motion, const Mechanism& m, const Contacts& contacts) {
+/// Whether energy was lost: an impact has taken some of it, or an impulse has changed it.
+bool is_lossy(const HybridMotion& motion, const Contacts& contacts) {
     return std::any_of(motion.events.begin(), motion.events.end(),
-                       [&](const EventRecord& e) {
-                           return !e.impulse.empty() ||
-                                  !m.event_actions[static_cast<std::size_t>(e.index)].set.empty();
-                       }) ||
+                       [](const EventRecord& e) { return !e.impulse.empty(); }) ||
            std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
                return e.kind == ContactEvent::Kind::impact &&
                       contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
@@ -144,7 +142,7 @@ private:
     void prepare_contacts() {
         if (!has_jumps(run_.mechanism)) return;
         view_.emplace(run_.mechanism);
-        kicks_.emplace(run_.mechanism);
+        kicks_.emplace(run_.mechanism, run_.scene);
         contacts_ = contacts_of(run_, start_, *view_, *kicks_);
         if (has_contacts_)
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
@@ -273,7 +271,8 @@ private:
 
     void settle_account(const Watch& watch) {
         EnergyAccount& account = run_.energy;
-        account.conserved = energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_);
+        account.set_change = watch.energy_error.set_change();
+        account.conserved = energy_.conserved && !is_lossy(run_.motion, contacts_) && !account.set_change;
         account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
         account.drift = watch.energy_error.energy();
         account.balance = watch.energy_error.balance();
@@ -345,7 +344,7 @@ private:
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
         const auto end = run_.motion.final_state();
         run_.final_coordinates.assign(end.begin(), end.begin() + m.size());
-        const std::size_t other = free.program.speeds.size() - m.states.size();
+        const std::size_t other = first_state(free.program.speeds.size(), m);
         if (!m.speeds.empty())
             for (std::size_t k = 0; k < other; ++k) {
                 if (free.program.speeds[k].rate_of >= 0) continue;

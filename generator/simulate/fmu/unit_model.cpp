@@ -67,7 +67,7 @@ void need_mass_matrix(const Program& program) {
 /// Adds n entries for each event that has impulses.
 void add_impulses(Program& program, const UnitModel& model) {
     const Mechanism& m = model.mechanism;
-    if (!m.has_kicks()) return;
+    if (!m.has_kicks() && !m.has_counts()) return;
     for (std::size_t k = 0; k < m.events.size(); ++k) {
         const Mechanism::EventAction& action = m.event_actions[k];
         if (!action.set.empty() || !action.rates.empty() || action.count)
