@@ -99,8 +99,7 @@ public:
         if (wishes_.reactions && has_reactions(run_.mechanism))
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
         std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
-        for (const Mechanism::EventAction& event : run_.mechanism.event_actions)
-            check_columns(columns, event.record);
+        check_recorded(run_.scene, columns);
         columns.erase(columns.begin());  // t is the other axis of a picture
         check_columns(columns, wishes_.columns);
         quick_times_ = quick_times(free.program, with_held_parameters(start_.parameters, free.program),

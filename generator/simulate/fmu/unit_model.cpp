@@ -146,6 +146,12 @@ UnitModel unit_model(Scene scene, const std::string& by) {
             say("{}: the motion starts with the rates before the scene's impulses; 'alembert eval --impact' "
                 "gives those after\n",
                 model.scene.file));
+    for (const Mechanism::EventAction& action : model.mechanism.event_actions)
+        if (!action.record.empty()) {
+            model.warn("left_out", say("warning: what events record is told by runs; a unit has the outputs "
+                                       "instead, and its importer records them\n"));
+            break;
+        }
     Program program = with_signs_told(model, lowered(model).program);
     Start start = start_of(model.mechanism);
     note_given(model, start);
