@@ -246,6 +246,10 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         if (on_side_change)
             on_side_change(change, self->contact.switching->names[k], self->compiled.jumps->frictions[k]);
     };
+    system.on_begin = [this, self](const ModeChange& change) {
+        if (on_side_begin)
+            on_side_begin(change, self->compiled.jumps->frictions[static_cast<std::size_t>(change.index)]);
+    };
     system.refusal = [self](int k, double t, const double* y) {
         const int friction = self->compiled.jumps->frictions[static_cast<std::size_t>(k)][0].friction;
         return refusal_of(self->derived.mechanism.frictions[static_cast<std::size_t>(friction)], self->program, t,

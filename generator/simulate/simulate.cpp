@@ -95,6 +95,13 @@ public:
                 note(run_.friction_changes,
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
+        modes.on_side_begin = [&](const ModeChange& change, const std::vector<Switched::Rubbing>& frictions) {
+            if (watch.is_over) return;
+            for (const Switched::Rubbing& one : frictions)  // after an impact or an event it may stick no more
+                if (sticks(one.friction))
+                    note(run_.friction_changes,
+                         {change.time, one.friction, one.direction * change.side, change.direction});
+        };
         const LoadedMode& free = modes({});
         if (wishes_.reactions && has_reactions(run_.mechanism))
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
@@ -145,6 +152,13 @@ private:
         contacts_ = contacts_of(run_, start_, *view_, *kicks_);
         if (has_contacts_)
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
+    }
+
+    /// Whether a friction stuck when it was last told.
+    bool sticks(int friction) const {
+        const auto last = std::find_if(run_.friction_changes.rbegin(), run_.friction_changes.rend(),
+                                       [&](const auto& known) { return known.friction == friction; });
+        return last != run_.friction_changes.rend() && last->side == 0;
     }
 
     /// A change to the same state is not recorded. Frictions that stick at one instant come in the order of the
