@@ -282,6 +282,95 @@ tolerance = 1e-13
     for (const Json& event : back["events"]) CHECK(std::abs(event["record"]["y"].get<double>() - height) < 1e-10);
 }
 
+// The floor falls away by 0.5 at t = 1: free fall for √(1/g), with the speed √g; then 1 − 0.5 of it.
+TEST_CASE("instants: a state that is set may open a contact, and may not put a body into it") {
+    const auto floor = [](const char* z) {
+        return temporary("floor.toml", fmt::format(R"toml(
+gravity = [0, -9.81]
+[coordinates]
+y = 0
+[states]
+z = {{}}
+[[particle]]
+name = "b"
+mass = 2
+position = [0, "y"]
+[[unilateral]]
+name = "floor"
+gap = "y - z"
+restitution = 0.5
+[[event]]
+name = "drop"
+when = "t - 1"
+set = {{ z = {} }}
+[simulation]
+duration = 1.4
+tolerance = 1e-12
+)toml",
+                                                   z));
+    };
+    const Json motion = simulated(floor("-0.5"));
+    CHECK(of_kind(motion, "release")[0]["time"] == 1.0);
+    const Json hit = of_kind(motion, "impact")[0];
+    CHECK(std::abs(value(hit, "time") - 1 - std::sqrt(1 / g)) < 1e-12);
+    CHECK(std::abs(value(hit, "speed_before") + std::sqrt(g)) < 1e-11);
+    CHECK(motion["work_balance"].get<double>() < 1e-11);
+    const Run lifted = run({"simulate", floor("0.5")});
+    CHECK(lifted.exit == 4);
+    CHECK(lifted.err.find("makes the gap of contact 'floor' -0.5") != std::string::npos);
+}
+
+// A blade that is set across: u' = 1 along x is left, and of the speed along y nothing. The constraint's impulse
+// takes m v²/2 of that.
+TEST_CASE("instants: constraints hold after states were set, by an impulse, and coordinates do not jump") {
+    const std::string blade = R"toml(
+[coordinates]
+x = { initial = 0, rate = 1 }
+y = { initial = 0, rate = 2 }
+[states]
+on = {}
+[energy]
+kinetic = "3*(x'^2 + y'^2)/2"
+[[constraint]]
+name = "blade"
+nonholonomic = "on*y' + (1 - on)*(2*x' - y')"
+[[event]]
+name = "turn"
+when = "t - 1"
+set = { on = 1 }
+[simulation]
+duration = 2
+tolerance = 1e-12
+)toml";
+    const Json motion = simulated(temporary("blade.toml", blade));
+    CHECK(std::abs(rate(motion, "x") - 1) < 1e-13);
+    CHECK(std::abs(rate(motion, "y")) < 1e-13);
+    CHECK(std::abs(coordinate(motion, "x") - 2) < 1e-12);
+    CHECK(std::abs(coordinate(motion, "y") - 2) < 1e-12);
+    CHECK(motion["work_balance"].get<double>() < 1e-12);
+    const Run cut = run({"simulate", temporary("rope.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = 0.6
+y = -0.8
+[states]
+l = { initial = 1 }
+[[particle]]
+name = "b"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "rope"
+holonomic = "x^2 + y^2 = l^2"
+[[event]]
+name = "cut"
+when = "x"
+set = { l = 0.7 }
+)toml")});
+    CHECK(cut.exit == 4);
+    CHECK(cut.err.find("puts constraint 'rope' off by 0.51") != std::string::npos);
+}
+
 // z grows by 1 in each second and is set back.
 TEST_CASE("instants: events set states of a scene that has no coordinates") {
     const std::string scene = temporary("saw.toml", R"toml(

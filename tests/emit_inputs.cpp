@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/state/given_values.hpp"
+#include "analysis/state/given_functions.hpp"
 #include "emitted.hpp"
 #include "files.hpp"
 #include "near.hpp"

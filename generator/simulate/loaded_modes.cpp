@@ -63,6 +63,36 @@ std::vector<bool> of_modes(const Mechanism& m) {
     return result;
 }
 
+/// Why the states that events have set cannot be, with the coordinates where they are: a constraint breaks, or a
+/// gap is negative.
+std::optional<std::string> broken_by_set(const Mechanism& m, const ContactView& view, const State<double>& before,
+                                         const State<double>& after) {
+    constexpr double negligible = 1e-9;
+    const Situation was = view.at(before), is = view.at(after);
+    const auto off = [&](const Situation::Rows& rows, Eigen::Index k) {
+        double size = 0;
+        for (Eigen::Index i = 0; i < rows.rows.cols(); ++i)
+            size += std::abs(rows.rows(k, i)) * std::max(1.0, std::abs(after.q[static_cast<std::size_t>(i)]));
+        return negligible * size;
+    };
+    for (Eigen::Index k = 0; k < is.bilateral.value.size(); ++k)
+        if (const double value = is.bilateral.value[k];
+            std::abs(value) > off(is.bilateral, k) + 10 * std::abs(was.bilateral.value[k]))
+            return say(
+                "what events set at t = {:.6g} puts constraint '{}' off by {:.6g}, and coordinates do not jump; "
+                "set "
+                "values with which it holds, or give the state a rate",
+                after.t, m.constraints[static_cast<std::size_t>(k)].name, value);
+    for (Eigen::Index k = 0; k < is.contacts.value.size(); ++k)
+        if (const double value = is.contacts.value[k];
+            - value > off(is.contacts, k) + 10 * std::abs(was.contacts.value[k]))
+            return say(
+                "what events set at t = {:.6g} makes the gap of contact '{}' {:.6g}, and coordinates do not jump; "
+                "set values with which it is not negative, or give the state a rate",
+                after.t, view.names()[static_cast<std::size_t>(k)], value);
+    return {};
+}
+
 }  // namespace
 
 Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view, const KickView& kicks) {
@@ -88,8 +118,13 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
         has_rates = has_rates || !event.rates.empty();
     }
     if (sets)
-        contacts.kicks.set = [&kicks, at](const std::vector<int>& events, double t, const double* before,
-                                          double* after) { return kicks.set(events, at(t, before), after); };
+        contacts.kicks.set = [&m, &kicks, &view, at](const std::vector<int>& events, double t,
+                                                     const double* before,
+                                                     double* after) -> std::optional<std::string> {
+            const State<double> from = at(t, before);
+            if (auto why = kicks.set(events, from, after)) return why;
+            return broken_by_set(m, view, from, at(t, after));
+        };
     if (has_rates)
         contacts.kicks.refusal = [&kicks, at](int event, double t, const double* before, const double* after) {
             return kicks.refusal(event, at(t, before), at(t, after));

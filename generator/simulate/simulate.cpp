@@ -33,10 +33,23 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
+/// Whether an event sets a state with which a constraint moves, so that an impulse of the constraint may act.
+bool moves_constraints(const Mechanism& m, const Mechanism::EventAction& event) {
+    std::vector<GiNaC::symbol> set;
+    for (const auto& one : event.set) set.push_back(m.states[static_cast<std::size_t>(one.first)].derivative[0]);
+    return std::any_of(m.constraints.begin(), m.constraints.end(), [&](const Mechanism::Constraint& c) {
+        const GiNaC::ex row = GiNaC::lst(c.row.begin(), c.row.end());
+        return m.z->depends(row, set) || m.z->depends(c.offset, set);
+    });
+}
+
 /// Whether energy was lost: an impact has taken some of it, or an impulse has changed it.
-bool is_lossy(const HybridMotion& motion, const Contacts& contacts) {
+bool is_lossy(const HybridMotion& motion, const Mechanism& m, const Contacts& contacts) {
     return std::any_of(motion.events.begin(), motion.events.end(),
-                       [](const EventRecord& e) { return !e.impulse.empty(); }) ||
+                       [&](const EventRecord& e) {
+                           return !e.impulse.empty() ||
+                                  moves_constraints(m, m.event_actions[static_cast<std::size_t>(e.index)]);
+                       }) ||
            std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
                return e.kind == ContactEvent::Kind::impact &&
                       contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
@@ -285,7 +298,8 @@ private:
     void settle_account(const Watch& watch) {
         EnergyAccount& account = run_.energy;
         account.set_change = watch.energy_error.set_change();
-        account.conserved = energy_.conserved && !is_lossy(run_.motion, contacts_) && !account.set_change;
+        account.conserved =
+            energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_) && !account.set_change;
         account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
         account.drift = watch.energy_error.energy();
         account.balance = watch.energy_error.balance();

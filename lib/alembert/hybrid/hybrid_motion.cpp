@@ -188,6 +188,23 @@ private:
         return sum;
     }
 
+    /// States that are set may open closed contacts, and change the velocities that constraints want: rates then
+    /// jump without an impulse of an event.
+    VectorXd follow_set(const std::vector<double>& rates, VectorXd impulse) {
+        constexpr double negligible = 1e-12;
+        const Situation here = contacts_.situation(now_.t, rates.data());
+        const Index n = here.f.size();
+        if (n == 0) return impulse;
+        const Eigen::Map<const VectorXd> q(rates.data(), n), u(rates.data() + n, n);
+        const VectorXd slack = negligible_gaps(here, q, tolerance_);
+        std::erase_if(closed_, [&](int k) { return here.contacts.value[k] > slack[k]; });
+        const Situation::Rows& rows = here.bilateral;
+        const VectorXd off = rows.rows * u + rows.offset,
+                       size = rows.rows.cwiseAbs() * u.cwiseAbs() + rows.offset.cwiseAbs();
+        const bool holds = (off.array().abs() <= negligible * size.array()).all();
+        return impulse.size() > 0 || holds ? impulse : VectorXd(VectorXd::Zero(n));
+    }
+
     /// The values of the scene's events in a mode.
     std::vector<double> event_values(const ContactMode& mode, double t, const std::vector<double>& state) const {
         std::vector<double> rate(state.size()), value(mode.events.list.size());
@@ -289,8 +306,9 @@ private:
             mode_ ? in_rates(contacts_.kicks, mode_->system.rhs, now_.t, now_.state) : now_.state;
         const std::vector<double> integrated = now_.state;
         std::vector<double> rates = before;
-        const VectorXd impulse = act(halt, before, rates);
+        VectorXd impulse = act(halt, before, rates);
         if (result_.failure) return;
+        if (rates != before) impulse = follow_set(rates, std::move(impulse));
         ContactTransition settled = settle(contacts_,
                                            {.t = now_.t,
                                             .tolerance = tolerance_,
