@@ -208,4 +208,20 @@ equation = "x'' + 2*x = z"
     CHECK(none.err.find("is no coordinate, rate, state, parameter or t") != std::string::npos);
 }
 
+// At φ = n p the pawl's force has a kink: the slopes are k and 0.
+TEST_CASE("rest with states: a kink at which states stand too is told with the function that has it") {
+    const Run kink = run({"stability", temporary("kink.toml", R"toml(
+[coordinates]
+phi = 0
+[states]
+n = { rate = "-n" }
+[energy]
+kinetic = "phi'^2/2"
+[forces]
+phi = "-3*min(0, phi - n)"
+)toml")});
+    CHECK(kink.exit == 3);
+    CHECK(kink.err.find("min(0,phi-n)") != std::string::npos);
+}
+
 }  // namespace states_at_rest
