@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "json.hpp"
 #include "scenes.hpp"
@@ -68,7 +69,7 @@ TEST_CASE("elements: scenes of actuators, frictions and tyres end where scipy en
                       {"phi'", 84.75308908908133},
                       {"s", -0.04185516407752897}}},
              Element{"elements/hill_muscle",
-                     {{"q", 1.0741813761602952}, {"q'", 0.47422369192383235}, {"l_m", 0.09303034698838362}}},
+                     {{"q", 1.0580831921406093}, {"q'", 0.3986194493718632}, {"l_m", 0.09358627010308988}}},
              Element{"elements/winch",
                      {{"theta", 0.24989201381464107}, {"theta'", 1.3774411793622736}, {"l", 1.6}}},
              Element{"elements/backlash", {{"phi_1", 1.1400674091494118}, {"phi_2'", -1.1464102341576408}}},
@@ -137,6 +138,32 @@ TEST_CASE("modes: a freewheel lets go and locks again when scipy says") {
              {"phi_2", 8.516344589712288},
              {"phi_1'", -5.101741816767694},
              {"phi_2'", 1.2133756214661722}},
+            1e-9);
+}
+
+TEST_CASE("modes: a ratchet counts the teeth that scipy counts") {
+    const Json motion = of_scene("modes/ratchet");
+    CHECK(std::abs(recorded(motion, "tooth", 0, "t") - 0.23067767667281072) < 1e-10);
+    CHECK(std::abs(recorded(motion, "tooth", 0, "phi'") - 3.0146497087836504) < 1e-9);
+    CHECK(std::abs(recorded(motion, "tooth", 17, "t") - 3.784879568795745) < 1e-9);
+    ends_at(motion, {{"phi", 4.745428964901083}, {"phi'", -4.802861121648448}, {"n", 18}}, 1e-9);
+}
+
+TEST_CASE("modes: a clutch slips, sticks, slips under a load and sticks again when scipy says") {
+    const Json motion = of_scene("modes/clutch");
+    const Json& told = motion["contacts"];
+    REQUIRE(told.size() == 3);
+    for (const auto& [k, time, what] :
+         {std::tuple{0, 2.3627327192672554, "stick"}, {1, 4.0, "slip"}, {2, 4.960609691865848, "stick"}}) {
+        CHECK(std::abs(told[k]["time"].get<double>() - time) < 1e-10);
+        CHECK(told[k]["event"] == what);
+    }
+    CHECK(told[1]["side"] == 1);
+    ends_at(motion,
+            {{"phi_1", 428.9378092709625},
+             {"phi_2", 268.7641865715482},
+             {"phi_1'", 55.05512415294133},
+             {"phi_2'", 55.05512415294133}},
             1e-9);
 }
 

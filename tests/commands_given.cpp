@@ -116,4 +116,57 @@ TEST_CASE("given: wrong values and inputs are refused with what is wrong") {
     refused({"simulate", scene, "--input", "u"}, "expected NAME=FILE.csv or NAME=EXPRESSION");
 }
 
+// The scene language warns where units contradict each other, and so does a function that is given for a run.
+TEST_CASE("given: an expression for an input is read as the scene's own, with its units") {
+    const std::string scene = temporary("pushed.toml", R"toml(
+[parameters]
+m = { value = 2, unit = "kg" }
+[inputs]
+u = { value = 0, unit = "kN", given = "outside" }
+[coordinates]
+x = { initial = 1, unit = "m" }
+[[particle]]
+name = "p"
+mass = "m"
+position = ["x", 0]
+[[force]]
+at = "p"
+vector = ["u", 0]
+[simulation]
+duration = 1
+)toml");
+    const auto end = [&](const std::string& u) {
+        const auto result = run({"simulate", scene, "--json", "--input", "u=" + u});
+        CHECK_MESSAGE(result.exit == 0, result.err);
+        return std::pair(Json::parse(result.out)["final"]["coordinates"]["x"].get<double>(), result.err);
+    };
+    for (const char* u : {"0.003", "3 N", "0.003 kN"}) {
+        CHECK(std::abs(end(u).first - 1.75) < 1e-13);
+        CHECK(end(u).second.empty());
+    }
+    const auto [place, told] = end("sin(m*t)");
+    CHECK(told.find("warning: --input u=sin(m*t): the argument of sin is a number or an angle") !=
+          std::string::npos);
+    CHECK(end("m").second.find("--input u=m: the value of 'u' is in kg*m/s^2, but its units make kg") !=
+          std::string::npos);
+    CHECK(place > 1);
+}
+
+TEST_CASE("given: a table of an input is read line by line, and what is wrong is told with its line") {
+    const std::string scene = pendulum("1", "0.1", "0");
+    const auto with = [&](const char* text) {
+        return std::vector<std::string>{"simulate", scene, "--input", "u=" + temporary("rows.csv", text)};
+    };
+    CHECK(run(with(" time , u\r\n 0 , 1e0\r\n\n+1,-2.5e-1 \n2,.5\n")).exit == 0);
+    refused(with("t,u\n0,1\n1abc,2\n"), "line 3: found '1abc'; expected a finite number");
+    refused(with("foo bar baz\n0,1\n"), "line 1: found 'foo bar baz'; expected a time and a value");
+    refused(with("t,x,y\n0,1,2\n"), "line 1: found 't,x,y'");
+    refused(with("1x,u\n0,1\n"), "line 1: found '1x'");
+    refused(with("0,1\nt,u\n"), "line 2: found 't'");
+    refused(with("0,1\n1,nan\n"), "line 2: found 'nan'");
+    refused(with("0,1\n1,1e999\n"), "line 2: found '1e999'");
+    refused(with("0,1\n1,2\n1,3\n"), "line 3: found the time 1 after 1; expected a later one");
+    refused(with("t,u\n"), "there is no row");
+}
+
 }  // namespace commands_given

@@ -242,6 +242,11 @@ TEST_CASE("modes: sweeps have them, and exits that follow no modes say so") {
     const Run unit = run({"emit", scene, "--fmu", temporary("out.fmu", "")});
     CHECK(unit.exit == 3);
     CHECK(unit.err.find("'set', 'rates' or 'count'") != std::string::npos);
+    const std::string told =
+        edited(sampled, {{"set = { held = \"x\", n = \"n + 1\" }\n", ""}, {"count = 30\n", ""}});
+    const Run recorded = run({"emit", temporary("told.toml", told), "--fmu", temporary("out.fmu", "")});
+    CHECK(recorded.exit == 0);
+    CHECK(recorded.err.find("what events record is told by runs") != std::string::npos);
 }
 
 TEST_CASE("modes: what an event cannot set, record or count is refused where it stands") {
@@ -254,6 +259,9 @@ TEST_CASE("modes: what an event cannot set, record or count is refused where it 
     CHECK(refusal("held = \"x\"", "helt = \"x\"").find("did you mean 'held'") != std::string::npos);
     CHECK(refusal("count = 30", "count = 0").find("how many zeros") != std::string::npos);
     CHECK(refusal("\"held\"]", "\"2*x\"]").find("there is no '2*x'") != std::string::npos);
+    const std::string both = refusal("\"x'\", \"held\"]", "\"helt\", \"2*x\"]");
+    CHECK(both.find("wrong.toml:20:22: there is no 'helt' to show (did you mean 'held'?)") != std::string::npos);
+    CHECK(both.find("wrong.toml:20:30: there is no '2*x' to show") != std::string::npos);
     CHECK(refusal("record = [\"t\", \"x\", \"x'\", \"held\"]", "record = []").find("expected the names") !=
           std::string::npos);
 }

@@ -282,6 +282,25 @@ TEST_CASE("consequences: data with units in plain text") {
     CHECK(statuses(rod, "T = 2/3 m b^2 theta'^2 （3分）", "page.txt") == "R");
 }
 
+const char* const rod_in_guides = R"toml(
+gravity = [0, "-g"]
+[parameters]
+m = 2
+l = 0.8
+g = 9.81
+[coordinates]
+theta = 0.6
+[[frame]]
+name = "F"
+rotate = [["z", "theta"]]
+[[body]]
+name = "asta"
+mass = "m"
+inertia = "m*l^2/12"
+frame = "F"
+position = ["l/2*sin(theta)", "l/2*cos(theta)"]
+)toml";
+
 TEST_CASE("consequences: a force function, a primed constant, the place of a start, another system") {
     for (const std::string words : {"The force function is ", "la fonction de forces est ", "力函数为 "})
         CHECK(statuses(pendulum, words + "$$U = m g l\\cos\\theta$$") != "M");
@@ -293,6 +312,12 @@ TEST_CASE("consequences: a force function, a primed constant, the place of a sta
     CHECK(statuses(pendulum, start + "$l\\dot\\theta^2 = 2g(\\cos\\theta - \\cos\\alpha)$.") == "-R");
     CHECK(statuses(pendulum, start + "$l\\dot\\theta^2 = g(\\cos\\theta - \\cos\\alpha)$.") == "-M");
     CHECK(statuses(pendulum, start + "at the bottom $l\\dot\\theta^2 = 2g(1 - \\cos\\alpha)$.") != "-M");
+    // A is the upper end of the rod, and not the thing whose name begins so
+    CHECK(statuses(rod_in_guides, "$y_G = \\frac l2\\cos\\theta$, $y_A = l\\cos\\theta$") == "RD");
+    CHECK(statuses(rod_in_guides, "$y_G = l\\cos\\theta$") == "M");
+    CHECK(statuses(pendulum,
+                   "The angular momentum $l = \\frac12 m l^2\\dot\\theta^2 - m g l\\cos\\theta$ is conserved.") !=
+          "R");
     CHECK(statuses(pendulum, "If the bob is replaced by a rod, $$l\\ddot\\theta + \\frac32 g\\sin\\theta = 0$$") !=
           "M");
 }

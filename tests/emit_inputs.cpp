@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/state/given_values.hpp"
+#include "analysis/state/given_functions.hpp"
 #include "emitted.hpp"
 #include "files.hpp"
 #include "near.hpp"
@@ -182,9 +182,9 @@ TEST_CASE("inputs from outside: a table of times and values is linear between it
         }
     };
     refused("0,1\n1\n", "line 2");
-    refused("0,1\n0,2\n", "not later");
+    refused("0,1\n0,2\n", "expected a later one");
     refused("t,u\n", "there is no row");
-    refused("0,inf\n", "not finite");
+    refused("0,inf\n", "expected a finite number");
 }
 
 TEST_CASE("inputs from outside: they are inputs of a unit, and their value is a number") {

@@ -81,7 +81,9 @@ public:
     Checked check(const Scene& scene) {
         std::map<Mode, std::vector<std::size_t>> modes;
         for (std::size_t k = 0; k < scene.claims.size(); ++k) modes[mode_of(scene.claims[k], scene)].push_back(k);
-        Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
+        Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size()),
+                       .has_states = !scene.states.empty(),
+                       .is_of_states_alone = scene.coordinates.empty() && scene.joints.empty()};
         for (const auto& [mode, claims] : modes) {
             const Scene part = with_some_claims(scene, claims);
             const bool is_own = mode.held.is_of_scene();

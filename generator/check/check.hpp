@@ -38,6 +38,8 @@ struct Checked {
     bool complete = false;  ///< whether the proved claims, with the constraints, determine every acceleration
     int missing = 0;  ///< how many equations of motion are still missing, of `freedom`; 0 too if that is unknown
     int freedom = 0;
+    bool has_states = false;          ///< whether the scene has first-order states, whose rates it gives
+    bool is_of_states_alone = false;  ///< and no coordinates
 };
 
 /// Judges any number of claims about one scene. Its equations are derived once, and the exact states at which

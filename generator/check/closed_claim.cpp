@@ -360,8 +360,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
         c.verdict = is_of_scene ? Verdict::proved : Verdict::vacuous;
         c.normal_form = true;
         if (now.at != Claim::At::impact)
-            c.reason = speaks_of_letters(now, k) ? words_of_identity()
-                                                 : say("it holds identically and says nothing of the motion");
+            c.reason = words_without_forces(now, k, say("it holds identically and says nothing of the motion"));
         return;
     }
     if (settle_in_cells(now, k, states)) return;

@@ -24,6 +24,7 @@ Completeness completeness(Basis& basis, const Claims& claims, const std::vector<
         list.insert(list.end(), row.begin(), row.end());
         list.insert(list.end(), unknowns.size() - row.size(), ex(0));
     }
+    if (m.size() == 0) return {.is_complete = true};  // the scene gives the rates of its states
     if (list.empty()) return {.missing = m.size(), .freedom = m.size()};
     Program p;
     const std::vector<int> nodes = claims.lower(p, list);

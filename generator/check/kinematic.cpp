@@ -18,9 +18,8 @@ void tell_kinematic(Comparison& now, std::size_t k, ExactStates& states) {
     double failure = 0;
     c.kinematic = p.is_zero(root) || vanishes_at(states, p, root, failure) == std::optional(true);
     if (c.kinematic && c.reason.empty())
-        c.reason = speaks_of_letters(now, k)
-                       ? words_of_identity()
-                       : say("a relation of kinematics: it holds for every motion that the constraints allow");
+        c.reason = words_without_forces(
+            now, k, say("a relation of kinematics: it holds for every motion that the constraints allow"));
 }
 
 }  // namespace

@@ -152,6 +152,28 @@ bool speaks_of_letters(const Comparison& now, std::size_t k) {
     return letters_in(now.scene.claims[k], now.claims).any;
 }
 
+namespace {
+
+/// Whether the tree holds the derivative of a first-order state; `primes` of those around it count.
+bool holds_state_rate(const Tree& tree, const Mechanism& m, int primes = 0) {
+    primes += tree.kind == Tree::Kind::name || tree.kind == Tree::Kind::derivative ? tree.primes : 0;
+    if (tree.kind == Tree::Kind::name)
+        return primes > 0 && std::any_of(m.states.begin(), m.states.end(), [&](const Mechanism::State& z) {
+                   return z.derivative[0].get_name() == tree.text;
+               });
+    return std::any_of(tree.args.begin(), tree.args.end(),
+                       [&](const TreePtr& arg) { return holds_state_rate(*arg, m, primes); });
+}
+
+}  // namespace
+
+std::string words_without_forces(const Comparison& now, std::size_t k, std::string otherwise) {
+    const Equality& equation = now.scene.claims[k].equation;
+    if (holds_state_rate(*equation.lhs.tree, now.m) || holds_state_rate(*equation.rhs.tree, now.m))
+        return say("it follows from the rates of the states, which the scene gives");
+    return speaks_of_letters(now, k) ? words_of_identity() : otherwise;
+}
+
 std::string words_of_identity() {
     return say("a relation between the quantities themselves: it holds whatever the motion");
 }

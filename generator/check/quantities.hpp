@@ -28,6 +28,9 @@ struct SpokenLetters {
 SpokenLetters letters_in(const Claim& claim, const Claims& read);
 
 bool speaks_of_letters(const Comparison& now, std::size_t claim);
+/// Why a claim holds that needs no forces: by the rates of the states that it holds, by what its letters mean, or,
+/// where it has neither, `otherwise`.
+std::string words_without_forces(const Comparison& now, std::size_t claim, std::string otherwise);
 
 /// Why a claim about such letters needs no equation of motion.
 std::string words_of_identity();

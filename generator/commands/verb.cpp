@@ -11,6 +11,7 @@
 #include <set>
 
 #include "alembert/base/error.hpp"
+#include "analysis/state/given_functions.hpp"
 #include "analysis/state/given_values.hpp"
 #include "base/language/say.hpp"
 #include "commands/help.hpp"

@@ -51,6 +51,8 @@ void add_loads(Building& here);
 /// Adds the constraints: [[constraint]], norms of quaternions, [[rolling]], joints that close loops,
 /// [[unilateral]].
 void add_conditions(Building& here);
+/// The rates of the states, which the masses, constraints and gaps that are there must allow.
+void add_states(Building& here);
 /// Adds [[friction]], after the constraints.
 void add_frictions(Building& here);
 

@@ -122,8 +122,13 @@ std::vector<GiNaC::symbol> Mechanism::open_functions() const {
 
 bool Mechanism::has_kicks() const {
     return std::any_of(event_actions.begin(), event_actions.end(), [](const EventAction& o) {
-        return !o.impulse.empty() || !o.set.empty() || !o.rates.empty() || o.count;
+        return !o.impulse.empty() || !o.set.empty() || !o.rates.empty();
     });
+}
+
+bool Mechanism::has_counts() const {
+    return std::any_of(event_actions.begin(), event_actions.end(),
+                       [](const EventAction& o) { return o.count.has_value(); });
 }
 
 std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {

@@ -279,11 +279,14 @@ struct Mechanism {
     /// The points of the function that is called; null if it is open.
     const TabulatedFunction* table_of(const GiNaC::ex& function) const;
 
-    /// Do rates jump at an event?
+    /// Do rates or states jump at an event?
     bool has_kicks() const;
+    /// Are zeros of an event counted?
+    bool has_counts() const;
 
-    /// Is the motion more than the integral of its rates? Contacts close, dry friction sticks, events kick.
-    bool has_modes() const { return !unilateral.empty() || !frictions.empty() || has_kicks(); }
+    /// Is the motion more than the integral of its rates? Contacts close, dry friction sticks, events kick, or
+    /// are counted.
+    bool has_modes() const { return !unilateral.empty() || !frictions.empty() || has_kicks() || has_counts(); }
 
     /// The settings of [simulation], in parameters; nothing for those that the scene does not give.
     struct Run {

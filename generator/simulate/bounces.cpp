@@ -58,7 +58,7 @@ double apart(const HybridMotion& motion, const HybridMotion& reference) {
 Bounces measured_bounces(const RunOptions& request, const Derived& d, const Start& start,
                          const State<double>& first) {
     const ContactView view(d.mechanism);
-    const KickView kicks(d.mechanism);
+    const KickView kicks(d.mechanism, d.scene);
     const Contacts contacts = contacts_of(d, start, view, kicks);
     // Only for the compilation, because only methods that need nothing else are measured.
     const MethodChoice choice;

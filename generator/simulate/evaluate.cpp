@@ -14,6 +14,7 @@
 #include "analysis/state/diagnose.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/needs.hpp"
+#include "model/formalism/with_states.hpp"
 #include "model/friction.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/robot_functions.hpp"
@@ -191,7 +192,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     for (const Quantity& q : program.coordinates) e.coordinates.push_back(q.name);
     const bool own_speeds = !program.speeds.empty();
     for (std::size_t k = 0; k < m.states.size(); ++k) {
-        const std::size_t place = state.qdot.size() - m.states.size() + k;
+        const std::size_t place = first_state(state.qdot.size(), m) + k;
         const std::string name = m.states[k].derivative[0].get_name();
         e.states.emplace_back(name, state.qdot[place]);
         e.state_rates.emplace_back(name, state.qddot[place]);

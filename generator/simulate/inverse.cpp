@@ -249,6 +249,10 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     at = without_accelerations(std::move(at));
     InverseLoads result{derived(std::move(scene), {.by = options.by, .use = Use::asked, .at = at})};
     const Mechanism& m = result.mechanism;
+    if (m.size() == 0)
+        throw ModelError(say(
+            "inverse dynamics asks for the loads along coordinates; this scene has states alone, whose rates it "
+            "gives: `eval` evaluates them"));
     const std::vector<std::optional<double>> given = given_accelerations(options.at, m);
     Start start = start_of(m, at);
     assemble(start, m, lower_constraints(m), at);

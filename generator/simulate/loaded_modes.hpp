@@ -65,6 +65,9 @@ public:
     /// whose sliding velocities have these signs; may be empty.
     std::function<void(const ModeChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
+    /// Called with the sides, other than sliding ones, on which the functions are where a phase begins; may be
+    /// empty.
+    std::function<void(const ModeChange&, const std::vector<Switched::Rubbing>&)> on_side_begin = {};
 
     /// At these times the steps in all modes have to be shorter.
     void shorten_steps(const std::vector<InputTimeScale>& quick_times);

@@ -7,6 +7,7 @@
 
 #include "alembert/base/process_time.hpp"
 #include "model/formalism/routhian.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/interpret.hpp"
 #include "program/lower/lower.hpp"
 #include "simulate/method.hpp"
@@ -56,8 +57,8 @@ Workbench::Workbench(Parts parts)
 std::vector<double> Workbench::momenta(double t, const double* state, const Rhs& rhs) {
     const std::size_t n = parts_.derived.mechanism.q.size();
     std::vector<double> now = coordinates_and_rates(rhs, t, state, n);
-    const std::size_t states = parts_.derived.mechanism.states.size(), all = parts_.initial.size();
-    now.insert(now.end(), state + all - states, state + all);
+    const std::size_t all = parts_.initial.size();
+    now.insert(now.end(), state + first_state(all, parts_.derived.mechanism), state + all);
     const auto middle = now.begin() + static_cast<std::ptrdiff_t>(n);
     const std::vector<double> values = interpret<double>(momentum_program_, {.parameters = parts_.parameters,
                                                                              .t = t,

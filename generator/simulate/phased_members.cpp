@@ -7,6 +7,7 @@
 #include "alembert/base/error.hpp"
 #include "alembert/ode/energy_error.hpp"
 #include "alembert/ode/running_extrema.hpp"
+#include "model/formalism/with_states.hpp"
 
 namespace alembert {
 
@@ -54,7 +55,7 @@ PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, c
     compiled_.is_shared = true;
     if (!has_jumps(derived.mechanism)) return;
     view_.emplace(derived.mechanism);
-    kicks_.emplace(derived.mechanism);
+    kicks_.emplace(derived.mechanism, derived.scene);
 }
 
 Module PhasedMembers::compile(const State<double>& first) {
@@ -82,7 +83,7 @@ Contacts PhasedMembers::contacts_at(const Start& start) {
     };
     Contacts contacts = contacts_of(derived_, start, *view_, *kicks_);
     contacts.situation = guarded(std::move(contacts.situation));
-    contacts.kicks.impulse = guarded(std::move(contacts.kicks.impulse));
+    contacts.kicks.impulses = guarded(std::move(contacts.kicks.impulses));
     contacts.kicks.passed = guarded(std::move(contacts.kicks.passed));
     if (contacts.kicks.set) contacts.kicks.set = guarded(std::move(contacts.kicks.set));
     if (contacts.kicks.refusal) contacts.kicks.refusal = guarded(std::move(contacts.kicks.refusal));
@@ -93,13 +94,14 @@ Contacts PhasedMembers::contacts_at(const Start& start) {
 Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state) {
     const std::size_t n = static_cast<std::size_t>(derived_.mechanism.size()), width = state.size();
     const auto middle = state.begin() + static_cast<std::ptrdiff_t>(n);
-    const auto states = static_cast<std::ptrdiff_t>(derived_.mechanism.states.size());
+    const auto first_of_states = static_cast<std::ptrdiff_t>(first_state(width, derived_.mechanism)),
+               states = static_cast<std::ptrdiff_t>(width) - first_of_states;
     const Start start{.parameters = member.parameters,
                       .t = member.start,
                       .q = {state.begin(), middle},
                       .qdot = std::vector<double>(n),
                       .speeds = {},
-                      .states = {state.end() - states, state.end()}};
+                      .states = {state.begin() + first_of_states, state.end()}};
     const State<double> first{.parameters = member.parameters,
                               .t = member.start,
                               .q = start.q,

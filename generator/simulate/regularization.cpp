@@ -13,7 +13,7 @@ namespace {
 std::optional<std::string> obstacle_to_regularization(const Mechanism& m, const Energy& energy) {
     if (!m.constraints.empty()) return say("there are constraints");
     if (!m.unilateral.empty() || !m.frictions.empty()) return say("there are contacts or dry friction");
-    if (m.has_kicks()) return say("there are events with impulses");
+    if (m.has_kicks() || m.has_counts()) return say("there are events that change the motion or are counted");
     if (!energy.conserved) return say("the energy T + V is not conserved");
     return std::nullopt;
 }

@@ -155,13 +155,29 @@ std::vector<std::string> row_columns(const Mechanism& m, const Program& program,
     return columns;
 }
 
+namespace {
+
+/// Nothing for the name of a column.
+std::optional<std::string> complaint(const std::vector<std::string>& columns, const std::string& name) {
+    if (std::find(columns.begin(), columns.end(), name) != columns.end()) return {};
+    const std::string meant = nearest(name, columns);
+    return say("there is no {} to show{}; expected one of {}", in_quotes(name),
+               meant.empty() ? "" : say(" (did you mean '{}'?)", meant), fmt::join(columns, ", "));
+}
+
+}  // namespace
+
 void check_columns(const std::vector<std::string>& columns, const std::vector<std::string>& wanted) {
-    for (const std::string& name : wanted) {
-        if (std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
-        const std::string meant = nearest(name, columns);
-        throw ModelError(say("there is no {} to show{}; expected one of {}", in_quotes(name),
-                             meant.empty() ? "" : say(" (did you mean '{}'?)", meant), fmt::join(columns, ", ")));
-    }
+    for (const std::string& name : wanted)
+        if (const auto why = complaint(columns, name)) throw ModelError(*why);
+}
+
+void check_recorded(const Scene& scene, const std::vector<std::string>& columns) {
+    std::vector<Diagnostic> mistakes;
+    for (const EventRule& event : scene.events)
+        for (const Name& name : event.record)
+            if (const auto why = complaint(columns, name.text)) mistakes.push_back({name.place, *why});
+    if (!mistakes.empty()) fail(scene, std::move(mistakes));
 }
 
 MotionTable rows_of(const HybridMotion& motion, const Derived& d, LoadedModes& modes,

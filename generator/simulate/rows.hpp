@@ -24,6 +24,8 @@ std::vector<std::string> row_columns(const Mechanism& mechanism, const Program& 
 
 /// Throws ModelError for a name that is no column; the message has the nearest name and all others.
 void check_columns(const std::vector<std::string>& columns, const std::vector<std::string>& wanted);
+/// Throws SceneError, with their places, for names that events of the scene record and that are no columns.
+void check_recorded(const Scene& scene, const std::vector<std::string>& columns);
 
 /// The table with these columns. If rates jump, there are two rows for the same time, before and after; if only
 /// the equations change, there is one. Reactions are evaluated with the parameters of `first`.

@@ -11,6 +11,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/libraries.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
 #include "simulate/consistent_mode.hpp"
@@ -32,12 +33,22 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
-/// Whether energy was lost: an impact has taken some of it, or an impulse or a set value has changed it.
+/// Whether an event sets a state with which a constraint moves, so that an impulse of the constraint may act.
+bool moves_constraints(const Mechanism& m, const Mechanism::EventAction& event) {
+    std::vector<GiNaC::symbol> set;
+    for (const auto& one : event.set) set.push_back(m.states[static_cast<std::size_t>(one.first)].derivative[0]);
+    return std::any_of(m.constraints.begin(), m.constraints.end(), [&](const Mechanism::Constraint& c) {
+        const GiNaC::ex row = GiNaC::lst(c.row.begin(), c.row.end());
+        return m.z->depends(row, set) || m.z->depends(c.offset, set);
+    });
+}
+
+/// Whether energy was lost: an impact has taken some of it, or an impulse has changed it.
 bool is_lossy(const HybridMotion& motion, const Mechanism& m, const Contacts& contacts) {
     return std::any_of(motion.events.begin(), motion.events.end(),
                        [&](const EventRecord& e) {
                            return !e.impulse.empty() ||
-                                  !m.event_actions[static_cast<std::size_t>(e.index)].set.empty();
+                                  moves_constraints(m, m.event_actions[static_cast<std::size_t>(e.index)]);
                        }) ||
            std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
                return e.kind == ContactEvent::Kind::impact &&
@@ -97,12 +108,18 @@ public:
                 note(run_.friction_changes,
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
+        modes.on_side_begin = [&](const ModeChange& change, const std::vector<Switched::Rubbing>& frictions) {
+            if (watch.is_over) return;
+            for (const Switched::Rubbing& one : frictions)  // after an impact or an event it may stick no more
+                if (sticks(one.friction))
+                    note(run_.friction_changes,
+                         {change.time, one.friction, one.direction * change.side, change.direction});
+        };
         const LoadedMode& free = modes({});
         if (wishes_.reactions && has_reactions(run_.mechanism))
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
         std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
-        for (const Mechanism::EventAction& event : run_.mechanism.event_actions)
-            check_columns(columns, event.record);
+        check_recorded(run_.scene, columns);
         columns.erase(columns.begin());  // t is the other axis of a picture
         check_columns(columns, wishes_.columns);
         quick_times_ = quick_times(free.program, with_held_parameters(start_.parameters, free.program),
@@ -144,10 +161,17 @@ private:
     void prepare_contacts() {
         if (!has_jumps(run_.mechanism)) return;
         view_.emplace(run_.mechanism);
-        kicks_.emplace(run_.mechanism);
+        kicks_.emplace(run_.mechanism, run_.scene);
         contacts_ = contacts_of(run_, start_, *view_, *kicks_);
         if (has_contacts_)
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
+    }
+
+    /// Whether a friction stuck when it was last told.
+    bool sticks(int friction) const {
+        const auto last = std::find_if(run_.friction_changes.rbegin(), run_.friction_changes.rend(),
+                                       [&](const auto& known) { return known.friction == friction; });
+        return last != run_.friction_changes.rend() && last->side == 0;
     }
 
     /// A change to the same state is not recorded. Frictions that stick at one instant come in the order of the
@@ -273,7 +297,9 @@ private:
 
     void settle_account(const Watch& watch) {
         EnergyAccount& account = run_.energy;
-        account.conserved = energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_);
+        account.set_change = watch.energy_error.set_change();
+        account.conserved =
+            energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_) && !account.set_change;
         account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
         account.drift = watch.energy_error.energy();
         account.balance = watch.energy_error.balance();
@@ -345,7 +371,7 @@ private:
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
         const auto end = run_.motion.final_state();
         run_.final_coordinates.assign(end.begin(), end.begin() + m.size());
-        const std::size_t other = free.program.speeds.size() - m.states.size();
+        const std::size_t other = first_state(free.program.speeds.size(), m);
         if (!m.speeds.empty())
             for (std::size_t k = 0; k < other; ++k) {
                 if (free.program.speeds[k].rate_of >= 0) continue;

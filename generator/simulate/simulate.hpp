@@ -32,6 +32,7 @@ struct EnergyAccount {
     double balance = 0;  ///< the same for E − E₀ − W, if E is not conserved
     double jacobi_drift = 0;
     double impact_loss = 0, impulse_work = 0;
+    std::optional<double> set_change = {};  ///< of E by states that events have set; nothing if none has moved it
 };
 
 /// Processor time of each stage, in seconds.

@@ -14,6 +14,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/event_code.hpp"
 #include "program/lower/lower.hpp"
 #include "simulate/method.hpp"
@@ -75,10 +76,10 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     const std::vector<std::string> names = s_.grid.names();
     starts_.emplace(m, names);
     has_varied_bodies_ = !m.masses.empty() && varies_parameters(m, names);
-    s_.conserved = energy_of(m).conserved && !has_jumps(m);
+    s_.conserved = energy_of(m).conserved && m.unilateral.empty() && !m.has_kicks();
     program_ = with_signs_told(s_, lowered(s_).program);
     for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
-    const std::size_t others = program_.speeds.size() - m.states.size();
+    const std::size_t others = first_state(program_.speeds.size(), m);
     for (std::size_t k = 0; k < others && !m.speeds.empty(); ++k)
         if (program_.speeds[k].rate_of < 0) s_.speeds.push_back(program_.speeds[k].name);
     for (const Mechanism::State& z : m.states) s_.states.push_back(z.derivative[0].get_name());

@@ -291,6 +291,8 @@ private:
         result_.to_velocity =
             solved(nu_dependent_, RealBall(-1) * column(result_.velocity), say("the constraints")).entries;
         U_ = along.part(up_to(n_ + s_, n_), up_to(nr_ + p_, nr_));
+        for (int j = p_ - r_.states; j < p_; ++j)
+            for (int i = 0; i < s_; ++i) U_(i, j) = RealBall(i == split_.u[j] ? 1 : 0);
         Ut_ = transposed(U_);
     }
 

@@ -217,10 +217,12 @@ ALEMBERT_PERIODIC(Quad)
 #undef ALEMBERT_PERIODIC
 
 bool changes_with_time(const Mechanism& m, const Equations& e) {
+    Intermediates::Direction time{{m.t, 1}};  // states change with the motion
+    for (const Mechanism::Input& input : m.inputs)
+        for (std::size_t order = 0; order < 2; ++order)
+            time.emplace_back(input.derivative[order], input.derivative[order + 1]);
     const auto moves = [&](const ex& value) {
-        for (const ex& slope : m.explicit_time_derivative({value}))
-            if (!is_identically_zero(slope, m)) return true;
-        return false;
+        return !is_identically_zero(m.z->push_forward({value}, time)[0], m);
     };
     for (const Mechanism::Input& input : m.inputs)
         for (const GiNaC::symbol& derivative : input.derivative)

@@ -311,8 +311,9 @@ Stability stability_of_periodic(const Derived& d, const StabilityOptions& option
 
 /// The verdict by the period that the equations have by how they are written; nothing if they have none, or no
 /// motion of that period is found.
-std::optional<Stability> by_own_period(const Scene& scene, StabilityOptions options) try {
-    const Derived d = derived(scene, {.by = options.by, .at = options.at, .with_states = true});
+std::optional<Stability> by_own_period(Scene scene, StabilityOptions options) try {
+    scene.on_warning = [](const Warning&) {};  // they have been told
+    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true});
     const std::optional<double> period = own_period(d, start_of(d.mechanism, options.at));
     if (!period) return {};
     options.period = *period;

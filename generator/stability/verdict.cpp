@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/language/say.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/univariate.hpp"
 
 namespace alembert {
@@ -108,14 +109,17 @@ Decision decide_first(const std::vector<RootOf>& roots) {
 }
 
 bool is_linear(const Mechanism& m, const Equations& e) {
-    if (!m.constraints.empty() || !m.unilateral.empty() || !e.speeds_are_rates()) return false;
+    if (!m.constraints.empty() || !m.unilateral.empty() || !m.speeds.empty()) return false;
     std::vector<GiNaC::symbol> state = m.q;
-    state.insert(state.end(), m.qdot.begin(), m.qdot.end());
-    for (int i = 0; i < m.size(); ++i) {
+    state.insert(state.end(), e.u.begin(), e.u.end());
+    for (int i = 0; i < m.size(); ++i)
+        if (!e.h[static_cast<std::size_t>(i)].is_equal(m.qdot[static_cast<std::size_t>(i)])) return false;
+    for (int i = 0; i < e.size(); ++i) {
         for (int j = 0; j <= i; ++j)
             if (m.z->depends(e.M(i, j), state)) return false;
-        if (m.z->tree_size(e.forcing(i)) > 2000) return false;
-        const ex f = m.z->expand(e.forcing(i));
+        const ex force = without_state_rates(e.forcing(i), m);
+        if (m.z->tree_size(force) > 2000) return false;
+        const ex f = m.z->expand(force);
         for (const GiNaC::symbol& x : state)
             if (m.z->depends(f.diff(x), state)) return false;
     }

@@ -380,7 +380,7 @@ class Reference:
                 name = constraint.get("multiplier", "lambda_" + constraint["name"])
                 self.names[name, 0] = Jet(self.multipliers[constraint["name"]])
         return {**dict(zip(self.q, self.accelerations)),
-                **{name: self.of(entry["rate"]).value for name, entry in self.scene.get("states", {}).items()}}
+                **{name: self.of(entry.get("rate", "0")).value for name, entry in self.scene.get("states", {}).items()}}
 
     def _gravity(self, _, loads):
         pull = self.vector(self.scene.get("gravity", [0, 0]))

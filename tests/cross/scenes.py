@@ -402,6 +402,24 @@ def _tables(d, rng):
     forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*by_points({name})"
 
 
+def _modes(d, rng):
+    """What is measured at instants is held between them, a counter counts these, and another event resets it."""
+    near = [name for name, e in d.scene["coordinates"].items() if abs(e.get("initial", e.get("guess", 1))) < 10]
+    if not near or d.scene.get("friction") or rng.random() >= 0.25:
+        return
+    name = rng.choice(near)
+    states = d.scene.setdefault("states", {})
+    states["held"] = {"initial": number(rng, -0.3, 0.3)}
+    states["passed"] = {}
+    forces = d.scene.setdefault("forces", {})
+    forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*held"
+    d.add("event", name="sample", when=f"sin({number(rng, 4, 15)}*t + 0.4)", set={"held": f"{name}'", "passed": "passed + 1"})
+    reset = dict(name="reset", when="passed - 2.5", direction="up", set={"passed": 0})
+    if not d.has_constraints and not d.has_contacts and "speeds" not in d.scene and rng.random() < 0.5:
+        reset["rates"] = {name: f"{number(rng, 0.7, 1.1)}*{name}'"}
+    d.add("event", **reset)
+
+
 def make(seed):
     """(kind, scene) of a seed."""
     d = Draft(seed)
@@ -413,6 +431,7 @@ def make(seed):
         _events(d)
         _states(d, random.Random(seed * 31 + 5))
         _tables(d, random.Random(seed * 37 + 11))
+        _modes(d, random.Random(seed * 41 + 13))
     d.scene["simulation"] = {"duration": number(d.rng, 1, 4), "tolerance": 10.0 ** -d.rng.choice([7, 9, 10, 12])}
     for table in ("coordinates", "parameters"):
         if not d.scene[table]:

@@ -464,7 +464,7 @@ Audited audit(Scene scene) {
                     "pose; along N they depend on each other with factors that change with the pose",
                     rolling.name, rolling.axes));
     constexpr int most_coordinates = 40;
-    if (result.mechanism.size() <= most_coordinates)
+    if (result.mechanism.size() > 0 && result.mechanism.size() <= most_coordinates)
         result.warn(warnings_of_unresisted(result.scene, result.mechanism, routh(result.mechanism)));
     return result;
 }

@@ -94,6 +94,7 @@ void add_slip_rows(Program& program, const Mechanism& mechanism) {
 /// A program with the rows and other values of all constraints, contacts last. It has no accelerations, because
 /// there may be none with all contacts closed.
 Program view_of(const Mechanism& mechanism) {
+    if (mechanism.q.empty()) return begun(mechanism);
     Mechanism closed = with_all_closed(without_plane_friction(mechanism));
     closed.outputs.clear();
     closed.events.clear();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
@@ -17,12 +18,24 @@ using GiNaC::ex;
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double same = 1e-9;  // of two values, relative to their size
+
+bool agree(double a, double b) {
+    return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
+}
 
 }  // namespace
 
-KickView::KickView(const Mechanism& m) : program_(begun(m)) {
+KickView::KickView(const Mechanism& m, const Scene& scene) : program_(begun(m)) {
+    std::vector<GiNaC::symbol> multipliers;
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& c : *list) multipliers.push_back(c.multiplier);
+    for (const Mechanism::Unilateral& u : m.unilateral) multipliers.push_back(u.gap.multiplier);
     std::vector<ex> values;
-    for (const Mechanism::Definition& event : m.events) values.push_back(event.value);
+    for (const Mechanism::Definition& event : m.events) {
+        holds_multipliers_.push_back(m.z->depends(event.value, multipliers));
+        values.push_back(holds_multipliers_.back() ? ex(0) : event.value);
+    }
     std::vector<ex> wanted = values;
     const std::vector<ex> slopes = m.time_derivative(values);
     const std::vector<ex> bends = m.time_derivative(slopes);  // without q''', if `when` contains rates
@@ -50,35 +63,77 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     bends_ = taken(m.events.size());
     for (std::size_t k = 0; k < m.events.size(); ++k) gradients_.push_back(taken(m.q.size()));
     speeds_ = taken(m.speeds.size());
-    for (const Mechanism::EventAction& event : m.event_actions) {
+    for (std::size_t k = 0; k < m.events.size(); ++k) {
+        const Mechanism::EventAction& event = m.event_actions[k];
+        const EventRule& rule = scene.events[k];
         impulses_.push_back(taken(event.impulse.size()));
-        for (const auto& [list, to] : {std::pair(&event.set, &set_), std::pair(&event.rates, &rates_)}) {
-            to->emplace_back();
-            for (const auto& one : *list) to->back().push_back({one.first, taken(1)[0]});
-        }
+        const auto given = [&](const auto& list, const std::vector<GeneralizedForce>& written) {
+            std::vector<Given> result;
+            for (std::size_t i = 0; i < list.size(); ++i)
+                result.push_back({list[i].first, taken(1)[0], written[i].value.text});
+            return result;
+        };
+        set_.push_back(given(event.set, rule.set));
+        rates_.push_back(given(event.rates, rule.rates));
+        texts_.emplace_back();
+        for (const GeneralizedForce& impulse : rule.impulses)
+            texts_.back()[impulse.coordinate.text] = impulse.value.text;
     }
     for (const Mechanism::Definition& event : m.events) names_.push_back(event.name);
     for (const GiNaC::symbol& q : m.q) coordinates_.push_back(q.get_name());
+    for (const Mechanism::State& z : m.states) states_.push_back(z.derivative[0].get_name());
 }
 
-Eigen::VectorXd KickView::change_of_rates(int event, const State<double>& before) const {
-    const std::vector<Given>& list = rates_[static_cast<std::size_t>(event)];
-    Eigen::VectorXd result;
-    if (list.empty()) return result;
+KickView::Kicks KickView::kicks(const std::vector<int>& events, const State<double>& before) const {
     const std::vector<double> value = interpret(program_, before);
-    result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(coordinates_.size()));
-    for (const Given& one : list)
-        result[one.index] =
-            value[static_cast<std::size_t>(one.node)] - before.qdot[static_cast<std::size_t>(one.index)];
+    const auto n = static_cast<Eigen::Index>(coordinates_.size());
+    Kicks result;
+    std::map<int, std::pair<int, double>> set;  // by coordinate: the event that sets its rate, and the value
+    const auto refuse = [&](std::string why) {
+        if (!result.refusal) result.refusal = std::move(why);
+    };
+    for (const int event : events) {
+        const auto k = static_cast<std::size_t>(event);
+        Kicks::Kick& kick = result.list.emplace_back();
+        if (!impulses_[k].empty()) kick.impulse.resize(n);
+        for (std::size_t i = 0; i < impulses_[k].size(); ++i) {
+            const double given = kick.impulse[static_cast<Eigen::Index>(i)] = value[impulses_[k][i]];
+            if (!std::isfinite(given))
+                refuse(
+                    say("event '{0}' gives {1} the impulse {2} at t = {3:.6g}, which is no finite real number "
+                        "there",
+                        names_[k], coordinates_[i], texts_[k].at(coordinates_[i]), before.t));
+        }
+        if (!rates_[k].empty()) kick.change_of_rates = Eigen::VectorXd::Zero(n);
+        for (const Given& one : rates_[k]) {
+            const auto i = static_cast<std::size_t>(one.index);
+            const double given = value[one.node];
+            if (!std::isfinite(given)) refuse(not_finite(event, coordinates_[i] + "'", one, before.t));
+            const auto [first, is_first] = set.emplace(one.index, std::pair(event, given));
+            if (is_first)
+                kick.change_of_rates[one.index] = given - before.qdot[i];
+            else if (const double other = first->second.second; !agree(given, other))
+                refuse(
+                    say("events '{0}' and '{1}' both set {2}' at t = {3:.6g}, to {4:.6g} and to {5:.6g}; let "
+                        "one of them set it, or make the values agree",
+                        names_[static_cast<std::size_t>(first->second.first)], names_[k], coordinates_[i],
+                        before.t, other, given));
+        }
+    }
     return result;
+}
+
+std::string KickView::not_finite(int event, const std::string& what, const Given& given, double t) const {
+    return say("event '{0}' sets {1} to {2} at t = {3:.6g}, which is no finite real number there",
+               names_[static_cast<std::size_t>(event)], what, given.text, t);
 }
 
 std::optional<std::string> KickView::refusal(int event, const State<double>& before,
                                              const State<double>& after) const {
-    constexpr double same = 1e-9;
     const std::vector<double> value = interpret(program_, before);
     double size = 0;
-    for (const double rate : after.qdot) size = std::max(size, std::abs(rate));
+    for (std::size_t i = 0; i < coordinates_.size(); ++i)
+        size = std::max({size, std::abs(before.qdot[i]), std::abs(after.qdot[i])});
     for (const Given& one : rates_[static_cast<std::size_t>(event)]) {
         const auto i = static_cast<std::size_t>(one.index);
         const double wanted = value[static_cast<std::size_t>(one.node)];
@@ -91,28 +146,43 @@ std::optional<std::string> KickView::refusal(int event, const State<double>& bef
     return {};
 }
 
-void KickView::set(int event, const State<double>& before, double* after) const {
-    const std::vector<Given>& list = set_[static_cast<std::size_t>(event)];
-    if (list.empty()) return;
-    const std::vector<double> value = interpret(program_, before);
-    for (const Given& one : list)
-        after[2 * coordinates_.size() + static_cast<std::size_t>(one.index)] =
-            value[static_cast<std::size_t>(one.node)];
-}
-
-Eigen::VectorXd KickView::impulse(int event, const State<double>& state) const {
-    const std::vector<int>& nodes = impulses_[static_cast<std::size_t>(event)];
-    if (nodes.empty()) return {};
-    const std::vector<double> value = interpret(program_, state);
-    Eigen::VectorXd result(static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t i = 0; i < nodes.size(); ++i) result[static_cast<Eigen::Index>(i)] = value[nodes[i]];
-    return result;
+std::optional<std::string> KickView::set(const std::vector<int>& events, const State<double>& before,
+                                         double* after) const {
+    std::map<int, std::vector<std::pair<int, const Given*>>> by_state;
+    for (const int event : events)
+        for (const Given& one : set_[static_cast<std::size_t>(event)])
+            by_state[one.index].emplace_back(event, &one);
+    for (auto& [index, list] : by_state) {
+        const std::size_t at = coordinates_.size() + static_cast<std::size_t>(index);
+        const auto one_after_the_other = [&] {
+            State<double> state = before;
+            for (const auto& setter : list) state.qdot[at] = interpret(program_, state)[setter.second->node];
+            return state.qdot[at];
+        };
+        const double result = one_after_the_other();
+        const std::string& name = states_[static_cast<std::size_t>(index)];
+        const auto [last, given] = list.back();
+        if (!std::isfinite(result)) return not_finite(last, name, *given, before.t);
+        std::reverse(list.begin(), list.end());
+        if (const double other = one_after_the_other(); !agree(result, other))
+            return say(
+                "events '{0}' and '{1}' both set {2} at t = {3:.6g}, which makes it {4:.6g} in this order and "
+                "{5:.6g} in the other; let one of them set it, or make the values agree",
+                names_[static_cast<std::size_t>(list.back().first)], names_[static_cast<std::size_t>(last)], name,
+                before.t, result, other);
+        after[coordinates_.size() + at] = result;
+    }
+    return {};
 }
 
 std::vector<PassedZero> KickView::passed(const State<double>& before, const State<double>& after) const {
     const std::vector<double> a = interpret(program_, before), b = interpret(program_, after);
     std::vector<PassedZero> result;
     for (std::size_t k = 0; k < values_.size(); ++k) {
+        if (holds_multipliers_[k]) {
+            result.push_back({.size = -1});
+            continue;
+        }
         const double value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
         double size = size_of_terms(program_, values_[k], b);
         const bool has_jumped = std::abs(value - a[values_[k]]) > tolerance::jump * size;

@@ -130,12 +130,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     d.mechanism.z = d.equations.z;
     if (options.with_states) d.equations = with_states(d.equations, d.mechanism);
-    const bool has_jumps =
-        std::any_of(d.mechanism.event_actions.begin(), d.mechanism.event_actions.end(),
-                    [](const Mechanism::EventAction& action) {
-                        return !action.impulse.empty() || !action.set.empty() || !action.rates.empty();
-                    });
-    if (options.with_states && has_jumps)
+    if (options.with_states && d.mechanism.has_kicks())
         d.warn("events",
                say("warning: the scene has events that change rates or states; what is said here is of the "
                    "equations between them\n"));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 
@@ -37,6 +38,12 @@ bool names(const std::string& index, const std::string& name, std::size_t k) {
            (full.size() > 1 && full.substr(1) == word);
 }
 
+/// A, B, P: more often the end of a rod than a thing whose name begins so.
+bool is_letter_of_point(const std::string& index) {
+    return index.size() == 1 && std::isupper(static_cast<unsigned char>(index[0])) != 0 &&
+           !is_of_mass_centre(index);
+}
+
 /// The things of the scene, those that the index names alone if there are any. `is_open`: a number may also mean
 /// another one.
 std::vector<Place3> matching(const std::vector<std::string>& things, const std::string& index, bool is_open) {
@@ -44,7 +51,7 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
     for (const bool exactly : {true, false}) {
         for (std::size_t k = 0; k < things.size(); ++k)
             if (exactly ? plain_word(index) == plain_word(things[k]) : names(index, things[k], k))
-                result.push_back({things[k], true});
+                result.push_back({things[k], exactly || !is_letter_of_point(index)});
         if (!result.empty()) break;
     }
     const bool is_number = is_count(index);

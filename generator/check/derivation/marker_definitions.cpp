@@ -69,7 +69,10 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
         line.reason = say("it does not keep its value");
         return;
     }
-    if (!is_one && is_kept) {
+    const std::vector<ex> slopes = m.z->pull_back({{stated, 1}}, m.qdot);
+    const bool is_linear =
+        std::none_of(slopes.begin(), slopes.end(), [&](const ex& slope) { return m.z->depends(slope, m.qdot); });
+    if (!is_one && is_kept && is_linear) {  // no energy
         line.status = LineStatus::right;
         line.reason = say("a constant of the motion");
         return;

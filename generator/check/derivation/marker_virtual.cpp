@@ -265,14 +265,17 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
     std::optional<std::size_t> wrong;
     for (const std::size_t i : wrong_here)  // rather one that is wrong in both readings
         if (!wrong || (!wrong_otherwise.contains(*wrong) && wrong_otherwise.contains(i))) wrong = i;
+    const Math& work = *lhs.args[0];  // δW_g
+    const bool is_named = work.kind == Kind::letter && !work.letter.index.empty(),
+               is_of_part = is_named || names_part_of_forces(heard_.around);
     if (wrong && is_work_of_part(truth)) {
-        line.status = LineStatus::right;
-        line.reason = say("the virtual work of a part of the forces");
+        line.status = is_of_part ? LineStatus::right : LineStatus::undecided;
+        line.reason =
+            is_of_part ? say("the virtual work of a part of the forces")
+                       : say("it is the virtual work of a part of the forces; if all are meant, some are missing");
         return;
     }
-    const Math& work = *lhs.args[0];  // δW_g
-    const bool is_named = work.kind == Kind::letter && !work.letter.index.empty();
-    if (wrong && (is_named || names_part_of_forces(heard_.around))) {
+    if (wrong && is_of_part) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("the words speak of a part of the forces");
         return;

@@ -20,6 +20,13 @@ Equations with_states(const Equations& equations, const Mechanism& mechanism);
 /// Whether the states are among the speeds.
 bool has_states(const Equations& equations, const Mechanism& mechanism);
 
+/// Where the states begin among this many speeds, or components of a state: they are the last of them.
+///
+///     u[first_state(u.size(), mechanism) + k]      // state k
+inline std::size_t first_state(std::size_t speeds, const Mechanism& mechanism) {
+    return speeds - mechanism.states.size();
+}
+
 /// The value with what the scene gives for z' and z'' in their place.
 GiNaC::ex without_state_rates(const GiNaC::ex& value, const Mechanism& mechanism);
 

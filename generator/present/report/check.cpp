@@ -17,6 +17,10 @@ const char* name_of(Verdict verdict) {
 }
 
 std::string words_of_completeness(const Checked& checked) {
+    if (checked.complete && checked.is_of_states_alone)
+        return say("There are no equations of motion: the scene has states alone, and gives their rates.");
+    if (checked.complete && checked.has_states)
+        return say("With the constraints and the rates of the states, the claims that hold determine the motion.");
     if (checked.complete) return say("With the constraints, the claims that hold determine the motion.");
     const int missing = checked.missing, all = checked.freedom;
     if (missing == 0) return say("The equations that are proved do not yet determine the motion.");

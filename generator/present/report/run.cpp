@@ -54,6 +54,12 @@ Json json_of(const Run& run, std::size_t row) {
     return result;
 }
 
+bool has_impulses(const Mechanism& m) {
+    return std::any_of(m.event_actions.begin(), m.event_actions.end(), [](const Mechanism::EventAction& action) {
+        return !action.impulse.empty() || !action.rates.empty();
+    });
+}
+
 std::string text_of_events(const Run& run) {
     const std::vector<EventRecord>& events = run.motion.events;
     std::string text;
@@ -316,7 +322,8 @@ void add_account(std::string& page, const Run& run) {
     }
     const EnergyAccount& energy = run.energy;
     if (energy.impact_loss != 0) say_on(page, "\nlost in impacts {:.10g}", energy.impact_loss);
-    if (run.mechanism.has_kicks()) say_on(page, "\ngained by impulses {:.10g}", energy.impulse_work);
+    if (has_impulses(run.mechanism)) say_on(page, "\ngained by impulses {:.10g}", energy.impulse_work);
+    if (energy.set_change) say_on(page, "\nchanged by values that events set {:.10g}", *energy.set_change);
     if (energy.conserved)
         say_on(page, "\nenergy drift {:.2e}\n", energy.drift);
     else
@@ -379,6 +386,7 @@ Json as_json(const Run& run) {
     result["events"] = Json::array();
     for (std::size_t row = 0; row < run.motion.events.size(); ++row) result["events"].push_back(json_of(run, row));
     if (run.mechanism.has_kicks()) result["impulse_work"] = energy.impulse_work;
+    if (energy.set_change) result["set_change"] = *energy.set_change;
     for (const Run::Side& change : run.side_changes)
         result["switches"].push_back(
             {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});

@@ -11,6 +11,7 @@
 #include "base/language/say.hpp"
 #include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -66,8 +67,18 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         if (known.back() == name) return {name, Part::state, k};
     }
     const std::string meant = nearest(name, known);
-    throw ModelError(say("{}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name,
-                         meant.empty() ? "" : say("; did you mean '{}'?", meant)));
+    const std::string advice = meant.empty() ? "" : say("; did you mean '{}'?", meant);
+    if (m_.states.empty())
+        throw ModelError(
+            say("{}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name, advice));
+    for (const Mechanism::State& z : m_.states)
+        if (z.derivative[1].get_name() == name || z.derivative[0].get_name() + "'" == name)
+            throw ModelError(
+                say("{}=…: the scene gives the rate of the state {}; set the state, or what its rate "
+                    "depends on",
+                    name, in_quotes(z.derivative[0].get_name())));
+    throw ModelError(
+        say("{}=…: '{}' is no coordinate, rate, state, parameter or t of the scene{}", name, name, advice));
 }
 
 double& Starts::place(const Spot& spot, Start& start) {

@@ -67,7 +67,7 @@ void need_mass_matrix(const Program& program) {
 /// Adds n entries for each event that has impulses.
 void add_impulses(Program& program, const UnitModel& model) {
     const Mechanism& m = model.mechanism;
-    if (!m.has_kicks()) return;
+    if (!m.has_kicks() && !m.has_counts()) return;
     for (std::size_t k = 0; k < m.events.size(); ++k) {
         const Mechanism::EventAction& action = m.event_actions[k];
         if (!action.set.empty() || !action.rates.empty() || action.count)
@@ -146,6 +146,12 @@ UnitModel unit_model(Scene scene, const std::string& by) {
             say("{}: the motion starts with the rates before the scene's impulses; 'alembert eval --impact' "
                 "gives those after\n",
                 model.scene.file));
+    for (const Mechanism::EventAction& action : model.mechanism.event_actions)
+        if (!action.record.empty()) {
+            model.warn("left_out", say("warning: what events record is told by runs; a unit has the outputs "
+                                       "instead, and its importer records them\n"));
+            break;
+        }
     Program program = with_signs_told(model, lowered(model).program);
     Start start = start_of(model.mechanism);
     note_given(model, start);

@@ -39,25 +39,31 @@ long double wrapped(long double x) {
     return x <= -pi + 1e-13L ? x + turn : x;
 }
 
+/// The largest of a size and the parameters of this unit; 1 if there is none.
+long double size_beside(const Mechanism& m, const Start& start, const std::string& unit, long double size) {
+    std::size_t next = 0;
+    for (const Mechanism::Parameter& p : m.parameters) {
+        if (!p.independent) continue;
+        const long double value = std::abs(start.parameters[next++]);
+        if (!unit.empty() && p.unit == unit) size = std::max(size, value);
+    }
+    return size > 0 ? size : 1;
+}
+
 std::vector<long double> scales_of(const Mechanism& m, const Start& start, const std::vector<bool>& is_angle) {
     std::vector<long double> result;
-    for (int i = 0; i < m.size(); ++i) {
-        long double size = is_angle[i] ? 1 : std::abs(start.q[i]);
-        std::size_t next = 0;
-        for (const Mechanism::Parameter& p : m.parameters) {
-            if (!p.independent) continue;
-            const long double value = std::abs(start.parameters[next++]);
-            if (!is_angle[i] && !p.unit.empty() && p.unit == m.units[i]) size = std::max(size, value);
-        }
-        result.push_back(size > 0 ? size : 1);
-    }
+    for (int i = 0; i < m.size(); ++i)
+        result.push_back(is_angle[i] ? 1 : size_beside(m, start, m.units[i], std::abs(start.q[i])));
     return result;
 }
 
 void sort_roots(std::vector<FoundRoot>& roots) {
     std::sort(roots.begin(), roots.end(), [](const FoundRoot& a, const FoundRoot& b) {
-        for (std::size_t i = 0; i < a.at.q.size(); ++i)
-            if (std::abs(a.at.q[i] - b.at.q[i]) > 1e-9L) return a.at.q[i] < b.at.q[i];
+        for (const auto part : {&Instant<long double>::q, &Instant<long double>::u}) {
+            const std::vector<long double>&one = a.at.*part, &other = b.at.*part;
+            for (std::size_t i = 0; i < one.size(); ++i)
+                if (std::abs(one[i] - other[i]) > 1e-9L) return one[i] < other[i];
+        }
         return false;
     });
 }
@@ -134,6 +140,29 @@ std::vector<bool> find_angles(const SteadyProblem& problem) {
 
 namespace {
 
+/// A first-order state of the scene that moves, where Newton's method starts.
+struct StartOfState {
+    std::size_t place;  ///< among the speeds
+    long double scale;  ///< the size of its ordinary values
+};
+
+std::vector<StartOfState> starts_of_states(const SteadyProblem& problem, const Mechanism& m, const Start& start) {
+    std::vector<StartOfState> result;
+    const Residuals& r = problem.residuals();
+    for (std::size_t k = 0, first = static_cast<std::size_t>(r.s - r.states); r.states > 0 && k < m.states.size();
+         ++k)
+        if (!m.states[k].rate.is_zero())
+            result.push_back({.place = first + k,
+                              .scale = size_beside(m, start, m.states[k].unit,
+                                                   static_cast<long double>(std::abs(start.states[k])))});
+    return result;
+}
+
+/// Most within twice the scale, every fourth within ten times.
+long double spread_out(int k, long double part) {
+    return k % 4 == 3 ? std::sinh(3 * part) : 2 * part;
+}
+
 /// Fewer for long equations, so that the search takes seconds for many coordinates too.
 int usual_starts(const SteadyProblem& problem, int dimension) {
     const Residuals& r = problem.residuals();
@@ -150,7 +179,9 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
     SteadySearch found;
     found.is_angle = find_angles(problem);
     problem.set_scales(scales_of(m, start, found.is_angle));
-    const auto dimension = std::count(problem.essential().begin(), problem.essential().end(), true);
+    const std::vector<StartOfState> states = starts_of_states(problem, m, start);
+    const auto dimension = std::count(problem.essential().begin(), problem.essential().end(), true) +
+                           static_cast<std::ptrdiff_t>(states.size());
     found.starts = options.starts > 0 ? options.starts : usual_starts(problem, static_cast<int>(dimension));
     const auto from = [&](int k) {
         Instant<long double> at = problem.start();
@@ -158,15 +189,18 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
         for (std::size_t i = 0; i < at.q.size(); ++i) {
             if (k == 0 || !problem.essential()[i]) continue;
             const long double part = 2 * halton(k, place++) - 1;
-            at.q[i] = found.is_angle[i] ? pi * part
-                                        : problem.scales()[i] * (k % 4 == 3 ? std::sinh(3 * part) : 2 * part);
+            at.q[i] = found.is_angle[i] ? pi * part : problem.scales()[i] * spread_out(k, part);
         }
+        for (const StartOfState& z : states)
+            if (k > 0) at.u[z.place] = z.scale * spread_out(k, 2 * halton(k, place++) - 1);
         return at;
     };
     const auto is_known = [&](const SteadyRoot& root) {
         return std::any_of(found.roots.begin(), found.roots.end(), [&](const FoundRoot& other) {
             const bool sharp = root.isolated && other.isolated;
-            const long double apart = distance(problem, found.is_angle, root.at, other.at);
+            long double apart = distance(problem, found.is_angle, root.at, other.at);
+            for (const StartOfState& z : states)  // continua are those of coordinates
+                if (sharp) apart = std::max(apart, std::abs(root.at.u[z.place] - other.at.u[z.place]) / z.scale);
             if (apart < (sharp ? same : same_if_singular)) return true;
             return apart < same_if_multiple && (meeting_at(problem, root.at) != Meeting::none ||
                                                 meeting_at(problem, other.at) != Meeting::none);

@@ -77,6 +77,8 @@ private:
         for (const long double x : at_.parameters) state.parameters.push_back(PuiseuxSeries(x));
         for (const long double x : at_.q) state.q.push_back(about(x));
         for (const int node : r_.rate) state.qdot.push_back(about(point_[node].at(0).value));
+        for (int k = r_.s - r_.states; k < r_.s; ++k)
+            state.qdot.push_back(about(at_.u[static_cast<std::size_t>(k)]));
         state.t = PuiseuxSeries(at_.t);
         const std::vector<PuiseuxSeries> value = interpret(program, state);
         std::vector<std::pair<std::string, std::string>> found;  // function, label

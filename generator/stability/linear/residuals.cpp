@@ -2,6 +2,7 @@
 // The equations of motion as residuals of one program, and its state with a derivative for each variable.
 #include <algorithm>
 
+#include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/linear/tangent.hpp"
 
@@ -14,6 +15,7 @@ Residuals::Residuals(const Mechanism& m, const Equations& e, const std::vector<b
       s(e.size()),
       holonomic(0),
       kept(static_cast<int>(e.A.size())),
+      states(has_states(e, m) ? static_cast<int>(m.states.size()) : 0),
       rates_are_speeds(e.speeds_are_rates()) {
     Program all;
     all.source_labels = m.z->source_labels();

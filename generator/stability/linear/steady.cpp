@@ -11,6 +11,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/with_states.hpp"
 #include "stability/linear/dense_long.hpp"
 #include "stability/linear/kinks.hpp"
 #include "stability/linear/paths.hpp"
@@ -103,8 +104,11 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     // The speeds that move no essential coordinate.
     const Tangent<long double> here = tangent(residuals_, split, start_, false, Undisturbed::steady);
     LongMatrix moves = LongMatrix::Zero(nr + p, p);
-    for (Index i = 0; i < p; ++i)  // a state is no rate of a cyclic coordinate: it has to stay
-        if (m.symbols->info(e.u[split.u[i]]).kind == SymbolInfo::Kind::state) moves(nr + i, i) = 1;
+    // A state is no rate of a cyclic coordinate: it has to stay, where it has a rate; elsewhere it stays as given.
+    const Program& program = residuals_.program;
+    for (Index i = 0; i < p; ++i)
+        if (split.u[i] >= residuals_.s - residuals_.states && !program[residuals_.forcing[split.u[i]]].is_number())
+            moves(nr + i, i) = 1;
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
     LongMatrix free = LongMatrix::Identity(p, p);
     if (p > 0 && !moves.isZero(0)) free = kernel_of(moves);
@@ -120,19 +124,20 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
 }
 
 std::vector<bool> SteadyProblem::resting() const {
-    // Coordinates that constraints of position tie to a cyclic one, or to the time, directly or through others,
-    // may move with it.
+    // Coordinates that constraints of position tie to a cyclic one, to a state or to the time, directly or through
+    // others, may move with it.
     std::vector<bool> result = essential_;
     std::vector<std::vector<int>> tied;
     for (const int root : residuals_.position) {
         tied.emplace_back();
-        bool is_driven = false;  // inputs are unknowns
+        bool is_driven = false;  // inputs are unknowns, states are among the speeds
         for (const int id : residuals_.program.needed(std::vector<int>{root})) {
             const Node& node = residuals_.program[id];
             if (node.op != Op::variable) continue;
             if (node.variable.kind == Variable::Kind::coordinate) tied.back().push_back(node.variable.index);
             is_driven = is_driven || node.variable.kind == Variable::Kind::time ||
-                        node.variable.kind == Variable::Kind::unknown;
+                        node.variable.kind == Variable::Kind::unknown ||
+                        node.variable.kind == Variable::Kind::rate;
         }
         if (is_driven)
             for (const int i : tied.back()) result[static_cast<std::size_t>(i)] = false;
@@ -309,8 +314,8 @@ Start SteadyProblem::start_at(const Start& like, const Instant<long double>& at)
     for (std::size_t k = 0; k < residuals_.inputs.size(); ++k) state.unknown[residuals_.inputs[k]] = at.inputs[k];
     const std::vector<long double> value = interpret(residuals_.program, state);
     for (std::size_t k = 0; k < result.speeds.size(); ++k) result.speeds[k] = static_cast<double>(at.u[k]);
-    for (std::size_t k = 0, first = at.u.size() - result.states.size(); k < result.states.size(); ++k)
-        result.states[k] = static_cast<double>(at.u[first + k]);
+    for (std::size_t k = 0; k < result.states.size(); ++k)
+        result.states[k] = static_cast<double>(at.u[first_state(at.u.size(), mechanism_) + k]);
     for (std::size_t i = 0; i < result.qdot.size(); ++i)
         result.qdot[i] = static_cast<double>(value[residuals_.rate[i]]);
     return result;
@@ -329,7 +334,7 @@ std::vector<std::pair<std::string, std::string>> steady_nearby(const Mechanism& 
     }
     for (std::size_t k = 0; k < m.states.size(); ++k)
         state.emplace_back(m.states[k].derivative[0].get_name(),
-                           fmt::format("{}", static_cast<double>(root->at.u[e.u.size() - m.states.size() + k])));
+                           fmt::format("{}", static_cast<double>(root->at.u[first_state(e.u.size(), m) + k])));
     return state;
 } catch (const std::runtime_error&) {  // there is no such state to suggest
     return {};

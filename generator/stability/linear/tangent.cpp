@@ -2,7 +2,9 @@
 // Notation of stability/linear/linearize.hpp; e stands for t and the inputs. Tangent directions of the
 // constraints:
 //   δq = Q δr + Qe δe,   Q_dep = −φ_dep⁻¹ φ_ind,   δu = S δr + U δw + Se δe,   U_dep = −ν_dep⁻¹ ν_ind.
-// U spans the null space of A. With c, the u' that A u' = γ requires if w' = 0:
+// U spans the null space of A, in which a first-order state of the scene moves alone: constraints that change with
+// it are not obeyed by virtual displacements, at which it is constant. With c, the u' that A u' = γ requires if w'
+// = 0:
 //   (UᵀMU) w' = Uᵀ(f − M c),   A_depᵀ λ = (M u' − f)_dep.
 #include "stability/linear/tangent.hpp"
 
@@ -182,12 +184,12 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
         refuse(to_say("holonomic"), split.q_dependent.size(), r.holonomic);
     split.q = others(split.q_dependent, r.n);
     order.clear();
-    for (int i = 0; i < r.s; ++i) {
+    for (int i = 0; i < r.s - r.states; ++i) {
         const bool follows =
             r.rates_are_speeds && std::binary_search(split.q_dependent.begin(), split.q_dependent.end(), i);
         order.push_back(follows ? 0 : preferred_u[i] ? 1 : 2);
     }
-    split.u_dependent = pivots(value.jacobian(r.velocity).middleCols(r.n, r.s), order);
+    split.u_dependent = pivots(value.jacobian(r.velocity).middleCols(r.n, r.s - r.states), order);
     if (static_cast<int>(split.u_dependent.size()) < r.kept)
         refuse(to_say("velocity"), split.u_dependent.size(), r.kept);
     split.u = others(split.u_dependent, r.s);
@@ -246,6 +248,7 @@ private:
         dependent_ = columns_of<Real>(nu.middleCols(n_, s_), split_.u_dependent);
         along.middleRows(n_, s_) += particular(-product<Real>(nu, along));
         U_ = along.block(n_, nr_, s_, p_);
+        for (Index j = p_ - r_.states; j < p_; ++j) U_.col(j) = Vector::Unit(s_, split_.u[j]);
         onto_ = U_.transpose();
     }
 

@@ -28,6 +28,7 @@ struct Residuals {
 
     Program program;
     int n, s, holonomic, kept;  ///< coordinates, speeds, rows of φ, rows of A
+    int states;                 ///< how many of the speeds, the last ones, are first-order states of the scene
     std::vector<int> mass, forcing, row, gamma, rate, position, velocity;
     std::vector<int> inputs;        ///< 3·index + order of the inputs that occur
     std::vector<int> input_values;  ///< nodes, in parameters and t
@@ -87,7 +88,7 @@ struct Tangent {
 
 /// The dependent coordinates are chosen by the largest pivot of φ_q among `preferred_q`, or among all if none of
 /// these is large enough; the dependent speeds in the same way from ν_u, the rates of dependent coordinates first.
-/// Throws IntegrationError if the rows depend on each other at this state.
+/// First-order states are never dependent. Throws IntegrationError if the rows depend on each other at this state.
 Split split_of(const Residuals& residuals, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u);
 

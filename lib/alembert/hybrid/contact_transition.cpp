@@ -31,6 +31,7 @@ public:
     }
 
     ContactTransition go() {
+        if (n_ == 0) return {};  // a system of states alone
         place();
         find_near();
         if (!strike_all()) return std::move(result_);

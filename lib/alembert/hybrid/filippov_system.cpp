@@ -125,7 +125,11 @@ private:
                 sides_[k] = g > 0 ? 1 : -1;
         }
         result_.dimension = dimension();
-        if (is_defined && (options_.duration == 0 || choose(open))) return true;
+        if (is_defined && (options_.duration == 0 || choose(open))) {
+            for (int k = 0; system_.on_begin && k < system_.count(); k += sides_.is_pair(k) ? 2 : 1)
+                if (sides_[k] != 0) system_.on_begin(change_of(k, ModeChange::Kind::leaving));
+            return true;
+        }
         if (!is_defined) fail_undefined();
         return false;
     }
@@ -388,11 +392,14 @@ private:
     }
 
     void tell(int k, ModeChange::Kind kind) const {
-        if (!system_.on_change) return;
+        if (system_.on_change) system_.on_change(change_of(k, kind));
+    }
+
+    ModeChange change_of(int k, ModeChange::Kind kind) const {
         ModeChange change{.time = now_.t, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
         if (sides_.is_pair(k) && sides_[k] != 0)
             change.direction = {sides_.slides[k / 2].along, sides_.slides[k / 2].across};
-        system_.on_change(change);
+        return change;
     }
 
     bool fail(const std::string& message) {

@@ -99,6 +99,8 @@ struct FilippovSystem {
     /// Bounds on the g_k, with the σ of the last call of `before_step`; may be empty.
     EventBounds bounds_of_functions = {};
     std::function<void(const ModeChange&)> on_change = {};  ///< may be empty
+    /// Called for each function that does not slide along its zero where an integration begins; may be empty.
+    std::function<void(const ModeChange&)> on_begin = {};
     std::function<void(const std::vector<double>& sigma)> before_step =
         {};  ///< called with σ before on_step and before the events of the run; may be empty
 

@@ -47,7 +47,8 @@ public:
 
     HybridMotion go() {
         result_.statistics.method = name(options_.method);
-        if (count_ > 0) settle_into({}, {}, {});
+        Halt none;
+        if (count_ > 0) settle_into({}, {}, none);
         if (!result_.failure) run_modes(*this, options_);
         if (result_.failure) {
             result_.ending = Ending::failed;
@@ -102,10 +103,7 @@ public:
     /// An event that stops the run takes precedence over a contact at the same instant.
     bool next_mode(const Hit& hit) {
         Halt halt = halt_of(hit);
-        for (const int k : halt.kicks)
-            if (const int last = contacts_.kicks.last_of(static_cast<std::size_t>(k));
-                last > 0 && ++met_[k] >= last)
-                halt.stops = true;
+        for (const int k : halt.kicks) halt.stops = is_last(k) || halt.stops;
         if (halt.contact < 0 && halt.kicks.empty()) return false;
         if (mode_->system.project)  // dense output obeys the constraints only approximately
             mode_->system.project(now_.t, now_.state.data());
@@ -149,23 +147,122 @@ private:
 
     bool is_first() const { return result_.phases.empty(); }
 
-    /// The sum of all impulses that act; each is also kept in the record of its event.
-    VectorXd impulse_of(const std::vector<int>& kicks, const std::vector<double>& state) {
+    /// Whether this zero of a counted event ends the run.
+    bool is_last(int event) {
+        const int last = contacts_.kicks.last_of(static_cast<std::size_t>(event));
+        return last > 0 && ++met_[event] >= last;
+    }
+
+    /// Puts what the events of the instant set into `rates`, adds to `halt` those whose values that takes past
+    /// zero, and returns the sum of all impulses, each of which is also kept in the record of its event.
+    VectorXd act(Halt& halt, const std::vector<double>& before, std::vector<double>& rates) {
+        struct Round {
+            std::vector<int> events;
+            std::vector<double> before;
+        };
+        std::vector<Round> rounds;
+        for (std::vector<int> next = halt.kicks; !next.empty();) {
+            rounds.push_back({next, rates});
+            const std::vector<double>& from = rounds.back().before;
+            if (contacts_.kicks.set)
+                if (const auto why = contacts_.kicks.set(next, now_.t, from.data(), rates.data())) {
+                    fail(FailureKind::endless_kicks, *why);
+                    return {};
+                }
+            next = taken_past_zero(halt, from, rates);
+        }
+        if (rates != before && contacts_.kicks.on_set) contacts_.kicks.on_set(now_.t, before.data(), rates.data());
         VectorXd sum;
-        for (const int k : kicks) {
-            const VectorXd one = contacts_.kicks.impulse(k, now_.t, state.data());
-            if (one.size() == 0) continue;
-            if (EventRecord* const record = last_record(k)) record->impulse.assign(one.begin(), one.end());
-            sum = sum.size() > 0 ? VectorXd(sum + one) : one;
+        for (const Round& round : rounds) {
+            const Impulses given =
+                contacts_.kicks.impulses(round.events, now_.t, round.before.data(), rates.data());
+            if (given.refusal) fail(FailureKind::endless_kicks, *given.refusal);
+            for (std::size_t i = 0; i < given.list.size() && !given.refusal; ++i) {
+                const VectorXd& one = given.list[i];
+                if (one.size() == 0) continue;
+                if (EventRecord* const record = last_record(round.events[i]))
+                    record->impulse.assign(one.begin(), one.end());
+                sum = sum.size() > 0 ? VectorXd(sum + one) : one;
+            }
         }
         return sum;
     }
 
-    void set_by(const std::vector<int>& kicks, const std::vector<double>& before,
-                std::vector<double>& after) const {
-        if (!contacts_.kicks.set || kicks.empty()) return;
-        for (const int k : kicks) contacts_.kicks.set(k, now_.t, before.data(), after.data());
-        if (contacts_.kicks.on_set) contacts_.kicks.on_set(now_.t, before.data(), after.data());
+    /// States that are set may open closed contacts, and change the velocities that constraints want: rates then
+    /// jump without an impulse of an event.
+    VectorXd follow_set(const std::vector<double>& rates, VectorXd impulse) {
+        constexpr double negligible = 1e-12;
+        const Situation here = contacts_.situation(now_.t, rates.data());
+        const Index n = here.f.size();
+        if (n == 0) return impulse;
+        const Eigen::Map<const VectorXd> q(rates.data(), n), u(rates.data() + n, n);
+        const VectorXd slack = negligible_gaps(here, q, tolerance_);
+        std::erase_if(closed_, [&](int k) { return here.contacts.value[k] > slack[k]; });
+        const Situation::Rows& rows = here.bilateral;
+        const VectorXd off = rows.rows * u + rows.offset,
+                       size = rows.rows.cwiseAbs() * u.cwiseAbs() + rows.offset.cwiseAbs();
+        const bool holds = (off.array().abs() <= negligible * size.array()).all();
+        return impulse.size() > 0 || holds ? impulse : VectorXd(VectorXd::Zero(n));
+    }
+
+    /// The values of the scene's events in a mode.
+    std::vector<double> event_values(const ContactMode& mode, double t, const std::vector<double>& state) const {
+        std::vector<double> rate(state.size()), value(mode.events.list.size());
+        mode.system.rhs(t, state.data(), rate.data());
+        mode.events(t, state.data(), rate.data(), value.data());
+        value.resize(value.size() - contacts_.names.size());
+        return value;
+    }
+
+    /// Those that kick among the events whose values have passed zero because states were set. Each is told like
+    /// any other, and happens once in an instant.
+    std::vector<int> taken_past_zero(Halt& halt, const std::vector<double>& from, const std::vector<double>& to) {
+        constexpr double negligible = 1e-9;  // of the jump: values of constraints are zero to rounding
+        std::vector<int> result;
+        if (from == to) return result;
+        const std::vector<double> state = as_integrated(contacts_.kicks, now_.t, to),
+                                  old = event_values(*mode_, now_.t, as_integrated(contacts_.kicks, now_.t, from)),
+                                  value = event_values(*mode_, now_.t, state);
+        for (std::size_t k = 0; k < value.size(); ++k) {
+            const double zero = negligible * std::abs(value[k] - old[k]);
+            const double beyond = old[k] > 0 ? -value[k] : value[k];
+            const bool passes =
+                std::abs(old[k]) > zero && (contacts_.kicks.is_of_modes(k) ? beyond >= -zero : beyond > zero);
+            const auto is_it = [k](const LastZero& known) { return known.event == static_cast<int>(k); };
+            if (!passes || std::any_of(halt.passed.begin(), halt.passed.end(), is_it)) continue;
+            const Event& event = mode_->events.list[k];
+            LastZero here{.event = static_cast<int>(k), .direction = old[k] > 0 ? -1 : 1};
+            here.counts = event.direction == 0 || event.direction == here.direction;
+            halt.passed.push_back(here);
+            if (!here.counts) continue;
+            const EventRecord record{.index = here.event, .name = event.name, .time = now_.t, .state = state};
+            result_.events.push_back(record);
+            result_.phases.back().motion.events.push_back(record);
+            halt.stops = halt.stops || event.stop || is_last(here.event);
+            if (!contacts_.kicks.has(k)) continue;
+            halt.kicks.push_back(here.event);
+            result.push_back(here.event);
+        }
+        return result;
+    }
+
+    /// For an event whose value is known along the motion alone, because it holds multipliers.
+    PassedZero passed_along(std::size_t event) const {
+        constexpr double little = 1e-9;  // of the duration
+        const double h = std::max(little * options_.duration, 64 * tolerance::epsilon * std::abs(now_.t));
+        const ContactMode& next = modes_(closed_);
+        std::vector<double> later = now_.state, rate(now_.state.size());
+        next.system.rhs(now_.t, now_.state.data(), rate.data());
+        for (std::size_t i = 0; i < later.size(); ++i) later[i] += h * rate[i];
+        const double value = event_values(next, now_.t, now_.state)[event],
+                     then = event_values(next, now_.t + h, later)[event], change = then - value;
+        PassedZero result{.slope = change / h, .size = std::abs(change / h) * options_.duration};
+        if (std::abs(value) > 2 * std::abs(change)) return result;  // it has jumped
+        if (change == 0)
+            result.band = 2 * std::abs(value);
+        else
+            result.side = then > 0 ? 1 : -1, result.hold = h;
+        return result;
     }
 
     void tell_gains(const std::vector<int>& kicks, const std::vector<double>& before, const VectorXd& struck) {
@@ -192,23 +289,26 @@ private:
             contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration);
         for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
         for (const LastZero& zero : halt.passed) {
-            const PassedZero& passed = zeros[static_cast<std::size_t>(zero.event)];
-            passed_[static_cast<std::size_t>(zero.event)] = passed;
+            const auto k = static_cast<std::size_t>(zero.event);
+            const PassedZero passed = zeros[k].size < 0 ? passed_along(k) : zeros[k];
+            passed_[k] = passed;
             if (!contains(halt.kicks, zero.event)) continue;
             ++kicks_;
-            const std::string& name = mode_->events.list[static_cast<std::size_t>(zero.event)].name;
+            const std::string& name = mode_->events.list[k].name;
             if (const auto endless =
                     series_[zero.event].add(name, now_.t, zero, passed, tolerance_, options_.duration))
                 return fail(FailureKind::endless_kicks, *endless);
         }
     }
 
-    void settle_into(const std::vector<int>& touched, const std::optional<int>& released, const Halt& halt) {
+    void settle_into(const std::vector<int>& touched, const std::optional<int>& released, Halt& halt) {
         const std::vector<double> before =
             mode_ ? in_rates(contacts_.kicks, mode_->system.rhs, now_.t, now_.state) : now_.state;
         const std::vector<double> integrated = now_.state;
         std::vector<double> rates = before;
-        set_by(halt.kicks, before, rates);
+        VectorXd impulse = act(halt, before, rates);
+        if (result_.failure) return;
+        if (rates != before) impulse = follow_set(rates, std::move(impulse));
         ContactTransition settled = settle(contacts_,
                                            {.t = now_.t,
                                             .tolerance = tolerance_,
@@ -216,7 +316,7 @@ private:
                                             .resting = resting_,
                                             .touched = touched,
                                             .released = released,
-                                            .impulse = impulse_of(halt.kicks, before)},
+                                            .impulse = impulse},
                                            rates);
         now_.state = mode_ ? as_integrated(contacts_.kicks, now_.t, rates) : rates;
         for (const ContactEvent& event : settled.events) {

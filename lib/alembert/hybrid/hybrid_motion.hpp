@@ -21,6 +21,10 @@
 /// rounding, it is held on the side to which its rate after the kick takes it. So rounding does not repeat the
 /// event, and a return through zero is found however soon it comes. Infinitely many kicks in a finite time are a
 /// failure.
+///
+/// Before the impulses act, the events set states. That may take the values of other events past zero, or to it
+/// where they change in no other way: these then happen at the same instant, after those that have set the
+/// states, each event once.
 
 #include "alembert/hybrid/contact_transition.hpp"
 #include "alembert/hybrid/filippov_system.hpp"

@@ -4,7 +4,7 @@
 /// Impulsive events, or kicks: events of the scene that apply impulses at their zeros, set states, or are counted.
 /// This header has what the scene must provide for them and what a run must remember.
 ///
-///     Contacts contacts{.kicks = {.events = {true}, .impulse = …, .passed = …}};
+///     Contacts contacts{.kicks = {.events = {true}, .impulses = …, .passed = …}};
 ///     const HybridMotion motion = follow(contacts, modes, initial, options);        // hybrid_motion.hpp
 ///     motion.events[0].energy_gain;
 ///
@@ -37,22 +37,34 @@ struct PassedZero {
                            ///< because its own contact is closed
     double slope = 0;      ///< the rate of the value before the jump
     double size = 0;       ///< the size of the terms of its value and of what coordinates of size max(1, |q|)
-                           ///< contribute; errors are measured relative to it
+                           ///< contribute; errors are measured relative to it. Negative: nothing is known
+};
+
+/// The generalized impulses of events of one instant, one for each; empty where an event gives none.
+struct Impulses {
+    std::vector<Eigen::VectorXd> list = {};
+    std::optional<std::string> refusal = {};  ///< why there are none, where that is so
 };
 
 /// All states here are (q, q', …), whichever speeds the run integrates.
 struct ImpulsiveEvents {
     std::vector<bool> events = {};  ///< which of the scene's events kick; if empty, none does
-    std::function<Eigen::VectorXd(int event, double t, const double* state)> impulse =
-        {};  ///< the generalized impulses as a function of the rates before
+    /// `before` is the state before the events, `set` the same with what they set, which gives the masses.
+    std::function<Impulses(const std::vector<int>& events, double t, const double* before, const double* set)>
+        impulses = {};
     /// One for each event of the scene. `acceleration` is q'' after the jump; it may be empty.
     std::function<std::vector<PassedZero>(double t, const double* before, const double* after,
                                           const Eigen::VectorXd& acceleration)>
         passed = {};
     int coordinates = 0;         ///< n
     std::vector<int> last = {};  ///< at which of its zeros an event ends the run; 0 or missing: at none
-    /// Sets what follows q' in `after`; `before` is the state before all events of the instant. May be empty.
-    std::function<void(int event, double t, const double* before, double* after)> set = {};
+    std::vector<bool> of_modes =
+        {};  ///< whether the value of an event changes only where events set states; missing: it does not
+    /// Sets what follows q' in `after`; `before` is the state before these events of one instant. Returns why
+    /// that cannot be, or nothing. May be empty.
+    std::function<std::optional<std::string>(const std::vector<int>& events, double t, const double* before,
+                                             double* after)>
+        set = {};
     /// Called where events have set something, before their impulses act. May be empty.
     std::function<void(double t, const double* before, const double* after)> on_set = {};
     /// Why the state after the impulses is not what an event wants; nothing if it is. May be empty.
@@ -63,6 +75,7 @@ struct ImpulsiveEvents {
 
     bool any() const { return std::find(events.begin(), events.end(), true) != events.end(); }
     int last_of(std::size_t event) const { return event < last.size() ? last[event] : 0; }
+    bool is_of_modes(std::size_t event) const { return event < of_modes.size() && of_modes[event]; }
     bool has(std::size_t event) const { return event < events.size() && events[event]; }
 };
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -72,8 +73,12 @@ public:
         const std::vector<double> still(static_cast<std::size_t>(size_), 0.0);
         const Energies a = energies(table, par, t, before, still.data()),
                        b = energies(table, par, t, after, still.data());
+        if (a.total == b.total) return;
         jumps_ += b.total - a.total;
+        set_change_ = set_change_.value_or(0) + b.total - a.total;
     }
+    /// The sum of these changes of E; nothing if none has moved it.
+    std::optional<double> set_change() const { return set_change_; }
 
     /// The same departures relative to the largest kinetic energy, for motions so small that E is nearly all
     /// potential energy. The divisor is at least 1e-10 of E, since rounding limits how well E is known, and for
@@ -116,6 +121,7 @@ private:
     bool with_work_, first_ = true;
     double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0, largest_energy_ = 0, largest_work_ = 0;
     double energy_ = 0, balance_ = 0, jacobi_ = 0, jumps_ = 0;
+    std::optional<double> set_change_;
 };
 
 }  // namespace alembert

@@ -28,8 +28,8 @@ enum class FailureKind {
     step_underflow,  ///< the step has become shorter than 16 ε |t|, so that time hardly advances
     budget_used_up,
     no_contact_mode,  ///< contacts that cannot all stay closed or open (hybrid_motion.hpp)
-    endless_kicks,    ///< impulses of events after which there are no rates, or infinitely many in a finite time
-                      ///< (hybrid_motion.hpp)
+    endless_kicks,    ///< events that set values which cannot be, impulses after which there are no rates, or
+                      ///< infinitely many of them in a finite time (hybrid_motion.hpp)
     no_side  ///< a sign in the right-hand side has no consistent value, or more than one (filippov_system.hpp)
 };
 
