@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 
 #include "base/language/say.hpp"
 #include "check/derivation/explanation.hpp"
@@ -123,13 +124,16 @@ void Marker::seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map
 int Marker::order_of(const LineClaim& claim) {
     const Mechanism& m = system_.mechanism();
     const Equations& e = system_.equations();
+    if (claim.lhs.empty()) return 2;
     try {
         const GiNaC::ex residual = truth_.value(claim.lhs) - truth_.value(claim.rhs);
         if (m.z->depends(residual, m.qddot) || m.z->depends(residual, e.lambda)) return 2;
         return m.z->depends(residual, m.qdot) ? 1 : 0;
     } catch (const NoMeaning&) {
-        return 2;
+    } catch (const std::domain_error&) {  // it divides by zero
+    } catch (const std::overflow_error&) {
     }
+    return 2;
 }
 
 /// Whether it can be read in one way only: stated, and not mentioned, in the scene's letters and those of energies
