@@ -145,4 +145,25 @@ tolerance = 1e-12
         }
 }
 
+// ∫ (1 + |x|) dx from −1 on; the speed of a particle on a path that only turns it stays.
+TEST_CASE("kinks: a constraint whose row holds |x| is kept by the sign that the run holds") {
+    const std::string scene = temporary("turning_row.toml", R"toml(
+[coordinates]
+x = { initial = -1, rate = 1 }
+z = { initial = 0.2, rate_guess = 0 }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "z"]
+[[constraint]]
+name = "c"
+nonholonomic = "z' = (1 + abs(x))*x'"
+)toml");
+    const Json motion = simulated(scene, {"--duration", "3", "--tolerance", "1e-12"});
+    const double x = coordinate(motion, "x");
+    CHECK(x > 0);
+    CHECK(motion["energy_drift"].get<double>() < 1e-11);
+    CHECK(std::abs(coordinate(motion, "z") - (0.2 + x + x * x / 2 + 1.5)) < 1e-10);
+}
+
 }  // namespace commands_kinks

@@ -169,6 +169,12 @@ TEST_CASE("point tables: the order of a method does not fall at knots") {
         INFO(method);
         CHECK(error({"--method", method, "--tolerance", "1e-12"}) < 2e-10);
     }
+    const std::string held =
+        temporary("held.toml",
+                  edited(contents(scene), {{"arguments = [\"x\"],", "arguments = [\"x\"], outside = \"line\","}}));
+    const Json series = simulated(held, {"--method", "taylor", "--tolerance", "1e-13", "--duration",
+                                         fmt::format("{:.17g}", end), "--no-estimate"});
+    CHECK(std::abs(number(series["final"], "coordinates", "x") - between_two_springs(end)) < 1e-11);
     // A quarter of the step: 256 times less by order 4, where kinks within steps leave order 2 and 16 times less.
     const double coarse = error({"--method", "rk4", "--step", "0.05"}),
                  fine = error({"--method", "rk4", "--step", "0.0125"});
@@ -222,6 +228,44 @@ TEST_CASE("point tables: a cam by table and a measured drag end where a closed f
     const Json ball = simulated(source_path("scenes/elements/drag_table.toml"));
     CHECK(std::abs(number(ball["final"], "coordinates", "y") - y) < 1e-9);
     CHECK(std::abs(number(ball["final"], "rates", "y") - now) < 1e-9);
+}
+
+TEST_CASE(
+    "point tables: in constraints they hold a bead on its wire, and both a value and its slope change at one "
+    "knot") {
+    const std::string wire =
+        "[tables]\nf = { arguments = [\"x\"], interpolation = \"cubic\", outside = \"line\", points = "
+        "[[-2, 2], [-1, 0.7], [0, 0], [1, 0.9], [2, 2]] }\n[[particle]]\nname = \"p\"\nmass = 1\n";
+    const std::string by_constraint =
+        temporary("wire.toml",
+                  "gravity = [0, -9.81]\n[coordinates]\nx = -0.8\ny = { guess = 0.6, rate_guess = 0 }\n" + wire +
+                      "position = [\"x\", \"y\"]\n[[constraint]]\nname = \"wire\"\nholonomic = \"y = f(x)\"\n");
+    const std::string by_place = temporary(
+        "bead.toml", "gravity = [0, -9.81]\n[coordinates]\nx = -0.8\n" + wire + "position = [\"x\", \"f(x)\"]\n");
+    const std::vector<std::string> how{"--duration", "5", "--tolerance", "1e-12"};
+    const Json here = simulated(by_constraint, how), there = simulated(by_place, how);
+    CHECK(std::abs(number(here["final"], "coordinates", "x") - number(there["final"], "coordinates", "x")) < 1e-9);
+    CHECK(here["energy_drift"].get<double>() < 1e-10);
+    CHECK(json_of({"check", by_constraint, "--formalisms"})["verdict"] == "proved");
+    // z' = f(x) x': the speed stays, and z − ∫ f dx, whatever the slope of f does.
+    const std::string skate = temporary("skate.toml", R"toml(
+[coordinates]
+x = { initial = 0, rate = 1 }
+z = { initial = 0.2, rate_guess = 0 }
+[tables]
+f = { arguments = ["x"], outside = "line", points = [[-2, 2], [-1, 0.7], [0, 0], [1, 0.9], [2, 2]] }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "z"]
+[[constraint]]
+name = "c"
+nonholonomic = "z' = f(x)*x'"
+)toml");
+    const Json motion = simulated(skate, {"--duration", "3", "--tolerance", "1e-12"});
+    const double x = number(motion["final"], "coordinates", "x"), s = x - 1;
+    CHECK(motion["energy_drift"].get<double>() < 1e-11);
+    CHECK(std::abs(number(motion["final"], "coordinates", "z") - (0.2 + 0.45 + 0.9 * s + 0.55 * s * s)) < 1e-10);
 }
 
 TEST_CASE("point tables: claims hold for the function, counterexamples have its numbers") {

@@ -84,6 +84,7 @@ TEST_CASE("thrust: a rocket whose mass is a function of time or a state has Tsio
         const Json motion = simulated(scene);
         CHECK(std::abs(number(motion["final"], "rates", "h") / wanted - 1) < 1e-11);
         CHECK(json_of({"check", scene})["claims"][0]["verdict"] == "proved");
+        CHECK(run({"derive", scene}).out.find("mdot*h'") == std::string::npos);  // on neither side
         CHECK(json_of({"check", scene, "--formalisms"})["verdict"] == "proved");
         for (const char* const by : {"kane", "appell", "dalembert", "hamilton", "maggi", "lagrange1", "routh"})
             CHECK(std::abs(number(simulated(scene, {"--by", by})["final"], "rates", "h") / wanted - 1) < 1e-11);

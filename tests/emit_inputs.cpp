@@ -182,9 +182,9 @@ TEST_CASE("inputs from outside: a table of times and values is linear between it
         }
     };
     refused("0,1\n1\n", "line 2");
-    refused("0,1\n0,2\n", "expected a later one");
-    refused("t,u\n", "there is no row");
-    refused("0,inf\n", "expected a finite number");
+    refused("0,1\n0,2\n", "line 2: t is 0 after 0");
+    refused("t,u\n", "fewer than two points");
+    refused("0,inf\n", "line 1");
 }
 
 TEST_CASE("inputs from outside: they are inputs of a unit, and their value is a number") {

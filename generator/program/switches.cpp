@@ -78,7 +78,10 @@ private:
         std::vector<int> args, sides;
         for (const int arg : node.args) args.push_back(rewriting_.image(arg));
         for (std::size_t k = 0; k < call.arguments; ++k) {
-            const int order = made.number(TabulatedFunction::side_order(k, call.orders));
+            // Where the function and its derivative have the same kinks, they have the same side.
+            const auto& kinks = of.axes()[k].kinks;
+            const int order = made.number(TabulatedFunction::side_order(
+                k, kinks[0] == kinks[1] ? TabulatedFunction::Orders{} : call.orders));
             const int side = made.call(Op::unspecified, {args[0], order, args[2 * k + 2]});
             sides.push_back(is_kinked(k) ? side_of(side, id) : made.call(Op::sign, {side}));
         }

@@ -9,6 +9,7 @@
 #include "model/formalism/needs.hpp"
 #include "model/friction.hpp"
 #include "program/differentiate.hpp"
+#include "program/in_pieces.hpp"
 #include "simulate/canonical.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/sides.hpp"
@@ -147,6 +148,7 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
     std::vector<QuotientSign> signs;  // told already
     Program program = free_ && is_own ? *std::move(free_) : with_quotient_signs(lowered(derived).program, signs);
     if (program.singular) need_accelerations(derived, program, first);
+    if (needs_series(method_.method)) program = in_pieces(program);
     std::optional<Switched> jumps;
     // rattle calculates with momenta, in which signs are not held constant.
     if (!needs_canonical(method_.method)) jumps = switched(program, SecondRates::wanted);

@@ -168,12 +168,16 @@ void LoadedModes::begin_in(LoadedMode& mode) const {
     first.insert(first.end(), first_.qdot.begin(), first_.qdot.end());
     const alembert_solver_table& table = mode.module.table();
     const bool has_other_speeds = static_cast<int>(first.size()) != table.coordinates + table.speeds;
-    if (!has_other_speeds) mode.projection.begin(first_.t, first.data());
+    mode.sides_are_known = false;
+    if (has_other_speeds) return;
+    if (mode.has_signs_in_rows) mode.hold_sides(first_.t, first.data());
+    mode.projection.begin(first_.t, first.data());
 }
 
 LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
     auto mode = loaded_.find(closed);
     if (mode == loaded_.end()) mode = loaded_.emplace(closed, bound(closed)).first;
+    mode->second->sides_are_known = false;
     return *mode->second;
 }
 
@@ -230,6 +234,7 @@ void LoadedMode::hold(const std::vector<double>& sigma) {
     if (std::equal(sigma.begin(), sigma.end(), first)) return;
     std::copy(sigma.begin(), sigma.end(), first);
     module.table().prepare(par.data());
+    if (has_signs_in_rows) projection.hold(par);
 }
 
 void LoadedMode::hold_sides(double t, const double* state) {
@@ -275,7 +280,10 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         mode.module, start_.parameters, jumps, mode.compiled.sides,
         {.work = work, .correct = constrained ? Correction(correct) : Correction(), .smooth = smooth});
     mode.side_sizes.assign(system.names.size(), 0);
-    system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
+    system.before_step = [self](const std::vector<double>& sigma) {
+        self->hold(sigma);
+        self->sides_are_known = true;
+    };
     system.on_change = [this, self](const ModeChange& change) {
         const auto k = static_cast<std::size_t>(change.index);
         if (on_side_change)
@@ -323,6 +331,24 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     rhs.series = {};
     rhs.dimension = dimension;
 }
+
+namespace {
+
+bool holds_signs_in_rows(const Switched& jumps) {
+    const Program& p = jumps.program;
+    std::vector<int> roots;
+    for (const Root& root : p.roots)
+        if (root.group == Group::projected || root.group == Group::row || root.group == Group::velocity)
+            roots.push_back(root.node);
+    const std::vector<int> needed = p.needed(roots);
+    const int first = static_cast<int>(p.parameters.size()) - jumps.held();
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        return p[id].op == Op::variable && p[id].variable.kind == Variable::Kind::parameter &&
+               p[id].variable.index >= first;
+    });
+}
+
+}  // namespace
 
 std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     const CompiledMode& made = compiled_(closed, first_);
@@ -380,9 +406,15 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         mode->contact.system.by = sundials_integrator(method.sundials, module, values, jumps.has_value());
     LoadedMode* const self = mode.get();
     if (jumps) hold_signs(*self, events);
+    mode->has_signs_in_rows = constrained && jumps && holds_signs_in_rows(*jumps);
     if (constrained) {
         begin_in(*self);
         mode->contact.system.project = self->projection.after_steps();
+        if (mode->has_signs_in_rows && mode->contact.system.project)
+            mode->contact.system.project = [self](double t, double* state) {
+                if (!self->sides_are_known) self->hold_sides(t, state);
+                self->projection(t, state);
+            };
         if (!jumps)
             mode->contact.system.rhs = self->projection.guarded(std::move(mode->contact.system.rhs), values);
     }

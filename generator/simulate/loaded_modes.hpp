@@ -31,6 +31,10 @@ struct LoadedMode {
     std::optional<Rhs> when_stiff = {};  ///< set after the motion was found stiff
     /// The largest size during the motion of each function whose sign is held constant.
     std::vector<double> side_sizes = {};
+    bool has_signs_in_rows = false;  ///< whether constraints hold signs that the run holds
+    /// Whether `par` has the signs of the piece of motion that runs. If not, those at the state are taken when it
+    /// is brought to the constraints.
+    bool sides_are_known = false;
     Method running = Method::dop853;          ///< what integrates at present
     double effort = 0, effort_of_series = 0;  ///< predicted time of all steps so far without and with series, ns
     /// Sets the signs in `par` to those at a state of the motion, or to given ones. To be called before anything

@@ -82,7 +82,8 @@ std::string text_of(const Program& p, int id, int depth = 0) {
             std::string text;
             for (std::size_t k = 0; k < call.arguments; ++k)
                 text += (text.empty() ? "" : ", ") + text_of(p, call.argument[k], 0);
-            return fmt::format("{}({})", p.functions.at(std::stoul(inner(node.args[0]))), text);
+            const auto function = static_cast<std::size_t>(cln::double_approx(p[node.args[0]].number));
+            return fmt::format("{}({})", p.functions.at(function), text);
         }
         default: {
             std::string text;

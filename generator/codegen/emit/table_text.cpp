@@ -9,6 +9,7 @@
 #include <kainjow/mustache.hpp>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 #include "base/language/say.hpp"
@@ -49,6 +50,7 @@ public:
             calls.emplace(table_call(p_, node), &node);
         }
         if (calls.empty()) return {};
+        if (is_javascript() && any_held) throw std::logic_error("no run holds sides in JavaScript");
         kainjow::mustache::data file;
         file.set("javascript", language_ == CodeLanguage::javascript);
         file.set("packs", language_ == CodeLanguage::cpp);

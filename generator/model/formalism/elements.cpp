@@ -119,6 +119,14 @@ Vector3 with_mass_rate(const MassElement& body, const Vector3& inertia, const Ve
     return body.mass_rate.is_zero() ? inertia : add(inertia, scale(body.mass_rate, velocity, z), z);
 }
 
+std::vector<ex> carried_momentum(const Mechanism& m) {
+    std::vector<std::pair<ex, ex>> pairs;
+    for (const MassElement& body : m.masses)
+        if (!body.mass_rate.is_zero())
+            for (const ex& v : body.velocity) pairs.emplace_back(v, m.z->name(body.mass_rate * v));
+    return pairs.empty() ? std::vector<ex>() : m.z->pull_back(pairs, m.qdot);
+}
+
 bool masses_are_known(const Mechanism& m) {
     return !m.given_lagrangian &&
            (m.kinetic.empty() || m.kinetic.back().origin.kind != Origin::Kind::given_kinetic);

@@ -33,6 +33,10 @@ std::array<GiNaC::ex, 6> central_inertia(const MassElement& body, Intermediates&
 /// The rate of the momentum of a body, m a + m' v, from m a, where its mass changes; m a where it does not.
 Vector3 with_mass_rate(const MassElement& body, const Vector3& inertia, const Vector3& velocity, Intermediates& z);
 
+/// Σ m' v·∂v/∂q' of masses that change, by coordinate: what d/dt ∂T/∂q' and the force of what leaves have in
+/// common. Empty if no mass changes.
+std::vector<GiNaC::ex> carried_momentum(const Mechanism& m);
+
 /// Does all kinetic energy belong to particles and bodies?
 bool masses_are_known(const Mechanism& mechanism);
 

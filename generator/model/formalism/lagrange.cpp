@@ -44,7 +44,12 @@ Equations lagrange_operator(const Mechanism& mechanism) {
         const std::vector<ex> column = z.push_forward(rows, {{mechanism.qdot[j], 1}});
         for (int i = j; i < n; ++i) equations.M(i, j) = equations.M(j, i) = column[i - j];
     }
-    for (int i = 0; i < n; ++i) equations.own.push_back(z.name(gradient[i] - pdot[i]));
+    // m a = F + m' u, not (m v)' = F + m' (v + u), as textbooks write it.
+    const std::vector<ex> carried = carried_momentum(mechanism);
+    for (int i = 0; i < n; ++i) {
+        equations.own.push_back(z.name(gradient[i] - pdot[i] + (carried.empty() ? ex(0) : carried[i])));
+        if (!carried.empty()) equations.applied[i] = z.name(equations.applied[i] - carried[i]);
+    }
     return equations;
 }
 

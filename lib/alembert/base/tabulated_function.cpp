@@ -226,6 +226,8 @@ void TabulatedFunction::find_kinks() {
                 if (jumps(i - 1, i, most)) axis.kinks[set].push_back(static_cast<int>(i));
             if (has_ends && bends) axis.kinks[set].push_back(static_cast<int>(pieces));
         }
+        // A run that holds the sides of both would come to their common zeros twice.
+        if (!axis.kinks[0].empty()) axis.kinks[0] = axis.kinks[1];
     }
 }
 

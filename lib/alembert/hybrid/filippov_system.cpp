@@ -49,6 +49,8 @@ public:
     /// The piece with the sides of now, until a sign changes.
     Mode enter(Options rest, RunPiece piece) {
         *undefined_ = HUGE_VAL;
+        if (system_.before_step)
+            system_.before_step(at_->sigma());  // the first step of the piece is projected too
         watched_ = mode_guards(*at_, {now_.t, options_.start + options_.duration}, *sizes_);
         const bool slides = !at_->sliding().empty();
         System system = abilities_;

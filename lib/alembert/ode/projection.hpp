@@ -48,6 +48,10 @@ public:
     explicit Projection(const Module& module, const std::vector<double>& values = {});
     void operator()(double t, double* state);
 
+    /// Takes other parameters, with what `prepare` makes of them: those of signs that a run holds may stand in
+    /// rows.
+    void hold(const std::vector<double>& par) { par_ = par; }
+
     /// This object as a function for System::project; empty if the speeds have eliminated all constraints and
     /// none is holonomic.
     std::function<void(double t, double* state)> after_steps();
