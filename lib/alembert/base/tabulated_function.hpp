@@ -37,11 +37,15 @@
 namespace alembert {
 
 struct TableAxis {
-    std::vector<double> at;          ///< ascending, two or more
-    double period = 0;               ///< 0 if there is none
-    std::vector<int> kinks[2] = {};  ///< positions of the knots at which a derivative up to the third jumps, for the
-                                     ///< function and for its derivatives: the same ones
-    double step = 0;                 ///< the mean distance
+    std::vector<double> at;  ///< ascending, two or more
+    double period = 0;       ///< 0 if there is none
+    /// Positions of the knots at which a derivative up to the third jumps, for the function and for its
+    /// derivatives: the same ones.
+    std::vector<int> kinks[2] = {};
+    double step = 0;  ///< the mean distance
+};                    ///< positions of the knots at which a derivative up to the third jumps, for
+                      ///< the function and for its derivatives: the same ones
+double step = 0;      ///< the mean distance
 };
 
 class TabulatedFunction {
