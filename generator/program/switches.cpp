@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "program/interpret.hpp"
 #include "program/known_knots.hpp"
@@ -24,7 +25,15 @@ constexpr std::size_t most_kinks = 1000;
 class Holding {
 public:
     explicit Holding(const Program& old)
-        : old_(old), rewriting_(old), first_(static_cast<int>(old.parameters.size())) {}
+        : old_(old),
+          rewriting_(old),
+          first_(static_cast<int>(old.parameters.size())),
+          is_of_state_(static_cast<std::size_t>(old.size()), 0) {
+        std::vector<int> roots;
+        for (const Root& root : old.roots)
+            if (root.group != Group::projected && root.group != Group::pivot) roots.push_back(root.node);
+        for (const int id : old.needed(roots)) is_of_state_[static_cast<std::size_t>(id)] = 1;
+    }
 
     Program finish() {
         return rewriting_.finish([this](int id) { return rebuilt(id); });
@@ -83,10 +92,20 @@ private:
             const int order = made.number(TabulatedFunction::side_order(
                 k, kinks[0] == kinks[1] ? TabulatedFunction::Orders{} : call.orders));
             const int side = made.call(Op::unspecified, {args[0], order, args[2 * k + 2]});
-            sides.push_back(is_kinked(k) ? side_of(side, id) : made.call(Op::sign, {side}));
+            sides.push_back(is_kinked(k) ? table_side(side, id, {node.args[0], order})
+                                         : made.call(Op::sign, {side}));
         }
         args.insert(args.end(), sides.begin(), sides.end());
         return made.call(Op::unspecified, args);
+    }
+
+    /// The step to the constraints looks at a second state, on the side of the first one.
+    int table_side(int g, int id, const std::pair<int, int>& of) {
+        std::set<int>& known = sides_of_tables_[of];
+        if (is_of_state_[static_cast<std::size_t>(id)] == 0 && known.size() == 1) return *known.begin();
+        const int side = side_of(g, id);
+        if (is_of_state_[static_cast<std::size_t>(id)] != 0) known.insert(side);
+        return side;
     }
 
     /// Whether a node is zero where a sign in it changes, as max(0, x) is. With a sign that is held, it goes on to
@@ -121,7 +140,9 @@ private:
     const Program& old_;
     Rewriting rewriting_;
     int first_;
-    std::map<int, int> places_;  // node → position
+    std::vector<char> is_of_state_;  // whether more than the step to the constraints needs a node
+    std::map<std::pair<int, int>, std::set<int>> sides_of_tables_;  // function, order of the side function → σ
+    std::map<int, int> places_;                                     // node → position
     std::vector<int> conditions_, functions_;
 };
 

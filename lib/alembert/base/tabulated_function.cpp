@@ -226,8 +226,9 @@ void TabulatedFunction::find_kinks() {
                 if (jumps(i - 1, i, most)) axis.kinks[set].push_back(static_cast<int>(i));
             if (has_ends && bends) axis.kinks[set].push_back(static_cast<int>(pieces));
         }
-        // A run that holds the sides of both would come to their common zeros twice.
-        if (!axis.kinks[0].empty()) axis.kinks[0] = axis.kinks[1];
+        // A run holds the function and its derivatives on one side: a constraint y = f(x) and its rate by f' must
+        // go on beyond a knot by one polynomial.
+        axis.kinks[0] = axis.kinks[1];
     }
 }
 

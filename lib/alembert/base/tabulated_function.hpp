@@ -37,11 +37,15 @@
 namespace alembert {
 
 struct TableAxis {
-    std::vector<double> at;          ///< ascending, two or more
-    double period = 0;               ///< 0 if there is none
-    std::vector<int> kinks[2] = {};  ///< positions of the knots at which a derivative up to the second jumps: of
-                                     ///< the function, and of its derivatives
-    double step = 0;                 ///< the mean distance
+    std::vector<double> at;  ///< ascending, two or more
+    double period = 0;       ///< 0 if there is none
+    /// Positions of the knots at which a derivative up to the third jumps, for the function and for its
+    /// derivatives: the same ones.
+    std::vector<int> kinks[2] = {};
+    double step = 0;  ///< the mean distance
+};                    ///< positions of the knots at which a derivative up to the third jumps, for
+                      ///< the function and for its derivatives: the same ones
+double step = 0;      ///< the mean distance
 };
 
 class TabulatedFunction {
@@ -75,7 +79,7 @@ public:
     /// Equal for equal tables.
     std::string fingerprint() const;
 
-    /// Whether derivatives up to the second of the derivative of these orders jump along an axis.
+    /// Whether there are knots along an axis that divide it for the derivative of these orders.
     bool has_kinks(std::size_t axis, const Orders& orders) const { return !kinks(axis, orders).empty(); }
     /// The order by which a call has the side function of these kinks; its derivatives have the next ones.
     static int side_order(std::size_t axis, const Orders& orders) {
