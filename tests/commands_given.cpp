@@ -158,15 +158,15 @@ TEST_CASE("given: a table of an input is read line by line, and what is wrong is
         return std::vector<std::string>{"simulate", scene, "--input", "u=" + temporary("rows.csv", text)};
     };
     CHECK(run(with(" time , u\r\n 0 , 1e0\r\n\n+1,-2.5e-1 \n2,.5\n")).exit == 0);
-    refused(with("t,u\n0,1\n1abc,2\n"), "line 3: found '1abc'; expected a finite number");
-    refused(with("foo bar baz\n0,1\n"), "line 1: found 'foo bar baz'; expected a time and a value");
-    refused(with("t,x,y\n0,1,2\n"), "line 1: found 't,x,y'");
-    refused(with("1x,u\n0,1\n"), "line 1: found '1x'");
-    refused(with("0,1\nt,u\n"), "line 2: found 't'");
-    refused(with("0,1\n1,nan\n"), "line 2: found 'nan'");
-    refused(with("0,1\n1,1e999\n"), "line 2: found '1e999'");
-    refused(with("0,1\n1,2\n1,3\n"), "line 3: found the time 1 after 1; expected a later one");
-    refused(with("t,u\n"), "there is no row");
+    refused(with("t,u\n0,1\n1abc,2\n"), "line 3 is '1abc,2'; expected 2 numbers");
+    refused(with("foo bar baz\n0,1\n"), "line 1 is 'foo bar baz'");
+    refused(with("t,x,y\n0,1,2\n"), "line 1 is 't,x,y'");
+    refused(with("1x,u\n0,1\n"), "line 1 is '1x,u'");
+    refused(with("0,1\nt,u\n"), "line 2 is 't,u'");
+    refused(with("0,1\n1,nan\n"), "line 2 is '1,nan'");
+    refused(with("0,1\n1,1e999\n"), "line 2 is '1,1e999'");
+    refused(with("0,1\n1,2\n1,3\n"), "line 3: t is 1 after 1");
+    refused(with("t,u\n"), "fewer than two points");
 }
 
 }  // namespace commands_given

@@ -25,6 +25,14 @@ bool is_small(const numeric& value) {
     return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
 }
 
+/// Whether the claim may fail by the rounding of a table's numbers alone: 0.1 + 0.15 x has no doubles.
+bool is_rounding(const Program& p, const numeric& residual) {
+    if (GiNaC::abs(residual) > GiNaC::pow(numeric(10), numeric(-10))) return false;
+    for (int id = 0; id < p.size(); ++id)
+        if (p[id].op == Op::unspecified && p.table_of(p[id]) != nullptr) return true;
+    return false;
+}
+
 void add_value(const Told& told, const std::string& name, const ex& e, const RealState& state,
                Counterexample& result) {
     Program p;
@@ -290,7 +298,9 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
         const auto state = states(seed);
         if (!state) continue;
         const auto value = evaluate(p, *state, {root});
-        if (!value || is_small((*value)[0]) || !is_as_typed(p, root, *state, (*value)[0])) continue;
+        if (!value || is_small((*value)[0]) || is_rounding(p, (*value)[0]) ||
+            !is_as_typed(p, root, *state, (*value)[0]))
+            continue;
         Counterexample result = described(told, *state, (*value)[0]);
         add_unspecified(told, motions, p, {root}, *state, result);
         return result;
@@ -346,7 +356,9 @@ void add_seen(const Told& told, const Motions& motions, const NodeInCells& of, c
     const auto value = evaluate(of.program, state, {of.node});
     if (!value) return;
     ++seen.states;
-    if (seen.fails || is_small((*value)[0]) || !is_as_typed(of.program, of.node, state, (*value)[0])) return;
+    if (seen.fails || is_small((*value)[0]) || is_rounding(of.program, (*value)[0]) ||
+        !is_as_typed(of.program, of.node, state, (*value)[0]))
+        return;
     seen.fails = described(told, state, (*value)[0]);
     add_unspecified(told, motions, of.program, {of.node}, state, *seen.fails);
 }

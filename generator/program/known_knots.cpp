@@ -20,6 +20,19 @@ bool is_affine_in_time(const Program& program, int id) {
     return factors == 1;
 }
 
+namespace {
+
+/// Whether two of them may lie in one step, which then would see neither.
+bool are_close(const TableAxis& axis, const std::vector<int>& kinks) {
+    constexpr double of_whole = 1e-3;
+    const auto at = [&](std::size_t k) { return axis.at[static_cast<std::size_t>(kinks[k])]; };
+    for (std::size_t k = 1; k < kinks.size(); ++k)
+        if (at(k) - at(k - 1) < of_whole * (axis.at.back() - axis.at.front())) return true;
+    return false;
+}
+
+}  // namespace
+
 bool has_known_knots(const Program& program, const TabulatedFunction& table, const Program::TableCall& call,
                      std::size_t argument) {
     const int smooth = table.interpolation() == TabulatedFunction::Interpolation::linear  ? 0
@@ -28,7 +41,8 @@ bool has_known_knots(const Program& program, const TabulatedFunction& table, con
     const bool holds = table.outside() == TabulatedFunction::Outside::hold;
     const int order = call.orders[0] + call.orders[1];
     constexpr std::size_t few = 64;  // these are switches of a run, which methods with fixed steps heed too
-    return kinks_of(table, argument, call.orders).size() > few &&
+    const std::vector<int>& kinks = kinks_of(table, argument, call.orders);
+    return (kinks.size() > few || are_close(table.axes()[argument], kinks)) &&
            call.orders[0] < TabulatedFunction::side_function && order <= (holds ? 0 : smooth) &&
            is_affine_in_time(program, call.argument[argument]);
 }

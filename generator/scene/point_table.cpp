@@ -49,6 +49,12 @@ std::optional<double> number_in(const std::string& field) {
     return value;
 }
 
+/// No number, nor a slip in one: 1x, -, nothing.
+bool is_name_of_column(const std::string& field) {
+    return !field.empty() && !number_in(field) &&
+           std::string_view("0123456789+-.").find(field[0]) == std::string_view::npos;
+}
+
 PointRows refused(std::string mistake) {
     return {.rows = {}, .mistake = std::move(mistake), .are_lines = true};
 }
@@ -77,8 +83,9 @@ public:
                     for (std::size_t k = 1; k < fields.size(); ++k) along_.push_back(*number_in(fields[k]));
                     continue;
                 }
-                if (std::none_of(fields.begin(), fields.end(), [](const std::string& f) { return number_in(f); }))
-                    continue;  // names of columns
+                if (fields.size() == arguments_ + 1 &&
+                    std::all_of(fields.begin(), fields.end(), is_name_of_column))
+                    continue;
             }
             if (const std::string mistake = take(fields, line, typed); !mistake.empty()) return refused(mistake);
             if (result_.rows.size() > most_points)

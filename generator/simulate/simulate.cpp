@@ -109,8 +109,9 @@ public:
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
         modes.on_side_begin = [&](const ModeChange& change, const std::vector<Switched::Rubbing>& frictions) {
-            if (watch.is_over) return;
-            for (const Switched::Rubbing& one : frictions)  // after an impact or an event it may stick no more
+            // At contacts what an impact leaves of a velocity may be rounding; there a phase tells it.
+            if (watch.is_over || !run_.mechanism.unilateral.empty()) return;
+            for (const Switched::Rubbing& one : frictions)  // after an event it may stick no more
                 if (sticks(one.friction))
                     note(run_.friction_changes,
                          {change.time, one.friction, one.direction * change.side, change.direction});

@@ -152,7 +152,8 @@ std::optional<std::string> KickView::set(const std::vector<int>& events, const S
     for (const int event : events)
         for (const Given& one : set_[static_cast<std::size_t>(event)])
             by_state[one.index].emplace_back(event, &one);
-    for (auto& [index, list] : by_state) {
+    for (auto& [index, of_state] : by_state) {
+        std::vector<std::pair<int, const Given*>>& list = of_state;  // closures hold no bindings (clang 14)
         const std::size_t at = coordinates_.size() + static_cast<std::size_t>(index);
         const auto one_after_the_other = [&] {
             State<double> state = before;

@@ -43,9 +43,6 @@ struct TableAxis {
     /// derivatives: the same ones.
     std::vector<int> kinks[2] = {};
     double step = 0;  ///< the mean distance
-};                    ///< positions of the knots at which a derivative up to the third jumps, for
-                      ///< the function and for its derivatives: the same ones
-double step = 0;      ///< the mean distance
 };
 
 class TabulatedFunction {
