@@ -26,11 +26,9 @@ bool is_small(const numeric& value) {
 }
 
 /// Whether the claim may fail by the rounding of a table's numbers alone: 0.1 + 0.15 x has no doubles.
-bool is_rounding(const Program& p, const numeric& residual) {
-    if (GiNaC::abs(residual) > GiNaC::pow(numeric(10), numeric(-10))) return false;
-    for (int id = 0; id < p.size(); ++id)
-        if (p[id].op == Op::unspecified && p.table_of(p[id]) != nullptr) return true;
-    return false;
+bool is_rounding(const Mechanism& m, const numeric& residual) {
+    return GiNaC::abs(residual) < GiNaC::pow(numeric(10), numeric(-10)) &&
+           std::any_of(m.tables.begin(), m.tables.end(), [](const auto& table) { return table != nullptr; });
 }
 
 void add_value(const Told& told, const std::string& name, const ex& e, const RealState& state,
@@ -298,7 +296,7 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
         const auto state = states(seed);
         if (!state) continue;
         const auto value = evaluate(p, *state, {root});
-        if (!value || is_small((*value)[0]) || is_rounding(p, (*value)[0]) ||
+        if (!value || is_small((*value)[0]) || is_rounding(told.mechanism, (*value)[0]) ||
             !is_as_typed(p, root, *state, (*value)[0]))
             continue;
         Counterexample result = described(told, *state, (*value)[0]);
@@ -356,7 +354,7 @@ void add_seen(const Told& told, const Motions& motions, const NodeInCells& of, c
     const auto value = evaluate(of.program, state, {of.node});
     if (!value) return;
     ++seen.states;
-    if (seen.fails || is_small((*value)[0]) || is_rounding(of.program, (*value)[0]) ||
+    if (seen.fails || is_small((*value)[0]) || is_rounding(told.mechanism, (*value)[0]) ||
         !is_as_typed(of.program, of.node, state, (*value)[0]))
         return;
     seen.fails = described(told, state, (*value)[0]);
