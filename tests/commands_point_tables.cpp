@@ -448,4 +448,40 @@ x = "u"
     CHECK(std::abs(number(motion["final"], "coordinates", "x") - 1) < 1e-11);
 }
 
+TEST_CASE("point tables: a pulse of some ten thousandths of the run is not passed over") {
+    for (const double begin : {1.0, 2.3, 7.77})
+        for (const double width : {1e-3, 1e-4, 1e-5}) {
+            const std::string scene = temporary(
+                "pulse.toml",
+                on_line(
+                    fmt::format(
+                        "u = {{ arguments = [\"t\"], points = [[0, 0], [{}, 0], [{}, {}], [{}, 0], [10, 0]] }}",
+                        begin, begin + width, 0.1 / width, begin + 2 * width),
+                    "u(t)", "", "initial = 0"));
+            CAPTURE(begin);
+            CAPTURE(width);
+            const Json motion = simulated(scene, {"--duration", "10"});
+            CHECK(std::abs(number(motion["final"], "rates", "x") - 0.1) < 1e-9);
+        }
+}
+
+TEST_CASE("point tables: the rounding of a table's numbers refutes no claim") {
+    const std::string scene =
+        on_line("f = { arguments = [\"x\"], points = [[0, 0.1], [2, 0.4]], outside = \"line\" }", "f(x)", "",
+                "initial = 0.5");
+    const Json answer = Json::parse(run({"check", temporary("rounding.toml", scene + R"toml(
+[[claim]]
+equation = "f(1) = 0.25"
+[[claim]]
+equation = "m*x'' = 0.1 + 0.15*x"
+[[claim]]
+equation = "f(1) = 0.26"
+)toml"),
+                                         "--json"})
+                                        .out);
+    CHECK(answer["claims"][0]["verdict"] == "undecided");
+    CHECK(answer["claims"][1]["verdict"] == "undecided");
+    CHECK(answer["claims"][2]["verdict"] == "refuted");
+}
+
 }  // namespace commands_point_tables
