@@ -109,7 +109,7 @@ public:
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
         modes.on_side_begin = [&](const ModeChange& change, const std::vector<Switched::Rubbing>& frictions) {
-            if (watch.is_over || has_contacts_) return;  // what an impact leaves of a velocity may be rounding
+            if (watch.is_over || has_contacts_) return;     // what an impact leaves of a velocity may be rounding
             for (const Switched::Rubbing& one : frictions)  // after an event it may stick no more
                 if (sticks(one.friction))
                     note(run_.friction_changes,
