@@ -399,4 +399,88 @@ tolerance = 1e-12
     CHECK(rows[1]["final"]["states"]["n"] == 5);
 }
 
+TEST_CASE("instants: a value that passes zero one way and back at one instant happens the way that counts") {
+    const Json motion = simulated(temporary("there_and_back.toml", R"toml(
+[coordinates]
+x = { initial = -1, rate = 1 }
+[states]
+n = {}
+[energy]
+kinetic = "x'^2/2"
+[[event]]
+name = "tick"
+when = "x"
+set = { n = 3 }
+[[event]]
+name = "reset"
+when = "n - 2.5"
+set = { n = 0 }
+[[event]]
+name = "stopper"
+when = "n - 1.5"
+direction = "down"
+stop = true
+[simulation]
+duration = 2
+)toml"));
+    CHECK(std::abs(motion["final"]["time"].get<double>() - 1) < 1e-9);
+}
+
+TEST_CASE("instants: a mass that an event makes negative ends the run") {
+    const auto result = run({"simulate", temporary("shed.toml", R"toml(
+[coordinates]
+x = { initial = -1, rate = 1 }
+[states]
+M = { initial = 1 }
+[[particle]]
+name = "p"
+mass = "M"
+position = ["x", 0]
+leaves = [-1, 0]
+[[event]]
+name = "shed"
+when = "x"
+set = { M = "M - 2" }
+[simulation]
+duration = 3
+)toml")});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("expected zero or more") != std::string::npos);
+}
+
+TEST_CASE("instants: friction that an event sets sliding is told beside a contact too") {
+    const Json motion = simulated(temporary("pushed.toml", R"toml(
+[coordinates]
+x = 0
+y = 0
+[states]
+F = {}
+[energy]
+kinetic = "(x'^2 + y'^2)/2"
+[forces]
+x = "F"
+y = "-9.81"
+[[friction]]
+name = "ground"
+coefficient = 0.3
+slip = "x'"
+normal = 10
+[[unilateral]]
+name = "floor"
+gap = "y"
+restitution = 0
+[[event]]
+name = "push"
+when = "t - 1"
+set = { F = 5 }
+[simulation]
+duration = 3
+)toml"));
+    CHECK(std::abs(number(motion["final"], "coordinates", "x") - 4) < 1e-9);
+    bool slips = false;
+    for (const Json& event : motion["contacts"])
+        slips = slips || (event["event"] == "slip" && std::abs(event["time"].get<double>() - 1) < 1e-9);
+    CHECK_MESSAGE(slips, motion["contacts"].dump());
+}
+
 }  // namespace commands_instants

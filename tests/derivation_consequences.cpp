@@ -235,8 +235,10 @@ TEST_CASE("consequences: a coordinate that is held in a special case") {
 }
 
 TEST_CASE("consequences: a place that is passed holds no coordinate") {
-    for (const std::string words : {"At the moment when the block passes $u = 0$, the pendulum obeys ",
-                                    "Initially $u = 0$, so ", "Die Feder ist bei $u = 0$ entspannt, dort gilt "}) {
+    for (const std::string words :
+         {"The following holds at $u = 0$: ", "If the block is not clamped, at $u = 0$, ",
+          "At the moment when the block passes $u = 0$, the pendulum obeys ", "Initially $u = 0$, so ",
+          "Die Feder ist bei $u = 0$ entspannt, dort gilt "}) {
         CAPTURE(words);
         CHECK(statuses(block, words + "$l\\ddot\\theta + g\\sin\\theta = 0$.").back() != 'R');
     }
@@ -303,7 +305,7 @@ position = ["l/2*sin(theta)", "l/2*cos(theta)"]
 
 TEST_CASE("consequences: a force function, a primed constant, the place of a start, another system") {
     for (const std::string words : {"The force function is ", "la fonction de forces est ", "力函数为 "})
-        CHECK(statuses(pendulum, words + "$$U = m g l\\cos\\theta$$") != "M");
+        CHECK(statuses(pendulum, words + "$$U = m g l\\cos\\theta$$") == "D");
     CHECK(statuses(pendulum, "$U = m g l\\cos\\theta$, so $V = -U$.") == "DR");
     CHECK(statuses(pendulum, "The potential energy is $$U = m g l\\cos\\theta$$") == "M");
     CHECK(statuses(pendulum, "$$\\tfrac12 m l^2\\dot\\theta^2 - m g l\\cos\\theta = E' = \\text{const}$$")[0] !=
@@ -314,6 +316,15 @@ TEST_CASE("consequences: a force function, a primed constant, the place of a sta
     CHECK(statuses(pendulum, start + "at the bottom $l\\dot\\theta^2 = 2g(1 - \\cos\\alpha)$.") != "-M");
     // A is the upper end of the rod, and not the thing whose name begins so
     CHECK(statuses(rod_in_guides, "$y_G = \\frac l2\\cos\\theta$, $y_A = l\\cos\\theta$") == "RD");
+    CHECK(statuses(rod_in_guides, "$x_B = l\\sin\\theta$, $v_B = l\\dot\\theta$") == "DD");
+    for (const std::string said : {"It is released at ", "It starts at ", "Initially "}) {
+        CHECK(statuses(pendulum, said + "$\\theta = \\alpha$. $$l\\ddot\\theta = -g\\sin\\alpha$$") == "--");
+        CHECK(statuses(pendulum, "From rest. " + said +
+                                     "$\\theta = \\alpha$. $$l\\dot\\theta^2 = 2g(\\cos\\theta - "
+                                     "\\cos\\alpha)$$") == "-R");
+    }
+    CHECK(statuses(test::textbook_text("central_force"), "The angular momentum is $$l = -7 m r^2\\dot\\phi$$") !=
+          "R");
     CHECK(statuses(rod_in_guides, "$y_G = l\\cos\\theta$") == "M");
     CHECK(statuses(pendulum,
                    "The angular momentum $l = \\frac12 m l^2\\dot\\theta^2 - m g l\\cos\\theta$ is conserved.") !=

@@ -25,7 +25,8 @@ bool is_small(const numeric& value) {
     return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
 }
 
-/// Whether the claim may fail by the rounding of a table's numbers alone: 0.1 + 0.15 x has no doubles.
+/// Whether the claim may fail by the rounding of a table's numbers alone: 0.1 + 0.15 x has no doubles. They have
+/// sixteen digits; differences of terms of a million are left with ten.
 bool is_rounding(const Mechanism& m, const numeric& residual) {
     return GiNaC::abs(residual) < GiNaC::pow(numeric(10), numeric(-10)) &&
            std::any_of(m.tables.begin(), m.tables.end(), [](const auto& table) { return table != nullptr; });

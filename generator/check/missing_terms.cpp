@@ -58,11 +58,6 @@ void collect_steady_terms(const Tree& tree, const Mechanism& m, TreesByText& ter
     for (const TreePtr& arg : tree.args) collect_steady_terms(*arg, m, terms);
 }
 
-bool differentiates(const Tree& tree) {
-    return tree.kind == Kind::derivative || std::any_of(tree.args.begin(), tree.args.end(),
-                                                        [](const TreePtr& arg) { return differentiates(*arg); });
-}
-
 Factors joined(Factors a, const Factors& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
@@ -166,7 +161,7 @@ std::vector<Factors> terms_of_mechanics(const Claim& claim, const Mechanism& m, 
     for (const GiNaC::symbol& lambda : e.lambda) in_motion.push_back(name_tree(lambda.get_name()));
     for (const Mechanism::Input& input : m.inputs) in_motion.push_back(name_of(input.derivative[0], m));
     for (const Mechanism::State& z : m.states) in_motion.push_back(name_of(z.derivative[0], m));
-    if (differentiates(*claim.equation.lhs.tree) || differentiates(*claim.equation.rhs.tree)) {
+    if (has_derivative(*claim.equation.lhs.tree) || has_derivative(*claim.equation.rhs.tree)) {
         std::vector<Factors> inner;
         for (const TreePtr& energy : known.of_energies) inner.push_back({energy});
         add_products(at_rest, circular, inner);

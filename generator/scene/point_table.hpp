@@ -5,7 +5,7 @@
 ///
 ///     const PointRows rows = rows_in_text(text_of_file("drag.csv", most_point_bytes), 1);
 ///     const MadeTable made = table_of(rows, {.arguments = {"v"}});
-///     if (!made.table) throw ModelError(made.mistake);          // "line 5: v is 2 and was 3 in the line before; …"
+///     if (!made.table) throw ModelError(made.mistake);   // "line 5: v is 2 and was 3 in the line before; …"
 
 #include <memory>
 #include <string>

@@ -6,6 +6,7 @@
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/taylor.hpp"
+#include "analysis/state/inertia_check.hpp"
 #include "base/language/say.hpp"
 #include "simulate/consistent_mode.hpp"
 #include "simulate/first_accelerations.hpp"
@@ -118,12 +119,16 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
         has_rates = has_rates || !event.rates.empty();
     }
     if (sets)
-        contacts.kicks.set = [&m, &kicks, &view, at](const std::vector<int>& events, double t,
-                                                     const double* before,
-                                                     double* after) -> std::optional<std::string> {
+        contacts.kicks.set = [&m, &kicks, &view, at, bodies = std::make_shared<const InertiaCheck>(d.scene, m)](
+                                 const std::vector<int>& events, double t, const double* before,
+                                 double* after) -> std::optional<std::string> {
             const State<double> from = at(t, before);
             if (auto why = kicks.set(events, from, after)) return why;
-            return broken_by_set(m, view, from, at(t, after));
+            const State<double> to = at(t, after);
+            for (const Diagnostic& found : bodies->findings(to))
+                if (found.severity == Severity::error)
+                    return say("what events set at t = {:.6g} is not possible: {}", t, found.message);
+            return broken_by_set(m, view, from, to);
         };
     if (has_rates)
         contacts.kicks.refusal = [&kicks, at](int event, double t, const double* before, const double* after) {

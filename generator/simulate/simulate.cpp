@@ -109,7 +109,8 @@ public:
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
         modes.on_side_begin = [&](const ModeChange& change, const std::vector<Switched::Rubbing>& frictions) {
-            if (watch.is_over || has_contacts_) return;     // what an impact leaves of a velocity may be rounding
+            // What an impact leaves of a velocity may be rounding.
+            if (watch.is_over || (has_contacts_ && change.time != set_at_)) return;
             for (const Switched::Rubbing& one : frictions)  // after an event it may stick no more
                 if (sticks(one.friction))
                     note(run_.friction_changes,
@@ -130,6 +131,7 @@ public:
         };
         contacts_.kicks.on_set = [&](double t, const double* before, const double* after) {
             if (watch.is_over) return;
+            set_at_ = t;
             const std::size_t size = 2 * run_.mechanism.q.size() + run_.mechanism.states.size();
             const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + size}),
                                       b = as_integrated(contacts_.kicks, t, {after, after + size});
@@ -412,6 +414,7 @@ private:
     Run& run_;
     const RunOptions& wishes_;
     bool has_contacts_;
+    std::optional<double> set_at_;  ///< when events last set states
     Energy energy_;
     Start start_;
     State<double> first_;

@@ -130,6 +130,7 @@ std::string KickView::not_finite(int event, const std::string& what, const Given
 
 std::optional<std::string> KickView::refusal(int event, const State<double>& before,
                                              const State<double>& after) const {
+    constexpr double rounding = 1e-13;  // of the largest rate, where equations of motion have coupled them
     const std::vector<double> value = interpret(program_, before);
     double size = 0;
     for (std::size_t i = 0; i < coordinates_.size(); ++i)
@@ -137,7 +138,8 @@ std::optional<std::string> KickView::refusal(int event, const State<double>& bef
     for (const Given& one : rates_[static_cast<std::size_t>(event)]) {
         const auto i = static_cast<std::size_t>(one.index);
         const double wanted = value[static_cast<std::size_t>(one.node)];
-        if (std::abs(after.qdot[i] - wanted) <= same * std::max(size, std::abs(wanted))) continue;
+        const double own = std::max({std::abs(before.qdot[i]), std::abs(after.qdot[i]), std::abs(wanted)});
+        if (std::abs(after.qdot[i] - wanted) <= same * own + rounding * size) continue;
         return say(
             "event '{0}' sets {1}' = {2:.6g} at t = {3:.6g}, and constraints, contacts or another event make "
             "it {4:.6g}; set rates that these allow, or give an impulse",

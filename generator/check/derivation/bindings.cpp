@@ -57,7 +57,8 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
     const bool is_number = is_count(index);
     if (!result.empty() && (!is_number || !is_open)) return result;
     for (const std::string& thing : things)  // an author counts in an order of his own
-        if (result.empty() || thing != result[0].name) result.push_back({thing, things.size() == 1});
+        if (result.empty() || thing != result[0].name)
+            result.push_back({thing, things.size() == 1 && !is_letter_of_point(index)});
     return result;
 }
 

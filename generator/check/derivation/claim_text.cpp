@@ -366,8 +366,7 @@ ClaimText claim_text(const Math& math, const ClaimWriting& writing) {
 Lone lone_letter(const Math& side) {
     using Kind = Math::Kind;
     if (side.kind == Kind::letter && side.dots == 0) return {&side, 1};
-    const bool is_function = side.kind == Kind::applied && side.letter.base.size() == 1 &&
-                             (!side.letter.index.empty() || side.letter.base == "U" || side.letter.base == "V");
+    const bool is_function = side.kind == Kind::applied && side.letter.base.size() == 1;
     if (is_function && std::all_of(side.args.begin(), side.args.end(),
                                    [](const MathPtr& arg) { return arg->kind == Kind::letter; }))
         return {&side, 1};

@@ -19,12 +19,6 @@ std::size_t terms_of(const Tree& side) {
     return side.kind == Tree::Kind::sum ? side.args.size() : 1;
 }
 
-int order_of(const Tree& tree) {
-    int order = tree.kind == Tree::Kind::name ? tree.primes : tree.kind == Tree::Kind::derivative ? 2 : 0;
-    for (const TreePtr& arg : tree.args) order = std::max(order, order_of(*arg));
-    return order;
-}
-
 int rates_in(const Tree& tree) {
     if (tree.kind == Tree::Kind::name) return tree.primes == 1 ? 1 : 0;
     if (tree.kind == Tree::Kind::power && tree.args[1]->text == "2") return 2 * rates_in(*tree.args[0]);
@@ -37,7 +31,7 @@ int rates_in(const Tree& tree) {
 bool is_one_thought(const Tree& missing) {
     if (missing.kind != Tree::Kind::sum) return true;
     return std::all_of(missing.args.begin(), missing.args.end(),
-                       [](const TreePtr& term) { return order_of(*term) == 1 && rates_in(*term) == 2; });
+                       [](const TreePtr& term) { return rates_in(*term) == 2; });
 }
 
 bool holds_one_of(const std::vector<std::string>& names, const Tree& tree) {
@@ -49,7 +43,7 @@ bool holds_one_of(const std::vector<std::string>& names, const Tree& tree) {
 
 }  // namespace
 
-bool explains(const Slip& slip, const LineClaim& claim, int order) {
+bool is_plausible(const Slip& slip, const LineClaim& claim, const OrderOf& order) {
     if (slip.repair.empty()) return false;
     constexpr std::size_t fewest_left = 3;
     if (slip.kind == "extra_term") {
@@ -58,15 +52,19 @@ bool explains(const Slip& slip, const LineClaim& claim, int order) {
     }
     const TreePtr term = tree_of(slip.term);
     if (slip.kind == "missing_term")
-        return !term || (is_one_thought(*without_sign(term).first) && order_of(*term) <= order);
-    if (slip.kind == "lost_dot") return !term || term->kind != Tree::Kind::derivative;  // of V(θ): no rate
+        return !term || (is_one_thought(*without_sign(term).first) &&
+                         order(slip.term).value_or(0) <=
+                             std::max(order(claim.lhs).value_or(2), order(claim.rhs).value_or(2)));
+    // The derivative of a function of a coordinate, V' of V(θ), has no dot to lose.
+    if (slip.kind == "lost_dot") return !term || term->kind != Tree::Kind::derivative;
     return true;
 }
 
-bool explains_rest(const Slip& slip, const LineClaim& claim, const std::vector<std::string>& coordinates) {
+bool is_plausible_at_rest(const Slip& slip, const LineClaim& claim, const OrderOf& order,
+                          const std::vector<std::string>& coordinates) {
     const TreePtr meant = slip.meant.empty() ? nullptr : tree_of(slip.meant);
     const bool is_of_place = meant && slip.kind == "factor" && holds_one_of(coordinates, *meant);
-    return explains(slip, claim, 0) && !is_of_place;
+    return is_plausible(slip, claim, order) && !is_of_place;
 }
 
 }  // namespace alembert

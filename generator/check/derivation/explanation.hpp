@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Whether a small change that makes a line right explains why the line fails.
+/// Whether a small change that makes a line right is why the line fails: whether one makes such a slip.
 ///
-///     explains({.kind = "sign", …}, claim, 2)       // true: one writes a wrong sign
-///     explains({.kind = "unknown"}, claim, 2)       // false: it may be meant otherwise
+///     is_plausible({.kind = "sign", …}, claim, order)       // true
+///     is_plausible({.kind = "unknown"}, claim, order)       // false: it may be meant otherwise
 ///
-/// Almost each false equation can be mended by one term more or by one less. Such a term is what the author forgot
-/// only if it is one term, of no higher order in time than what the line speaks of: an equation of rest lacks no
-/// acceleration. A term too many is a slip if enough is left without it. Counted on 209 derivations of people:
-/// where another change mends a line, four of five are mistakes; where any term more does, one of three; where any
-/// term less does, one of eleven; where no change does, one of twenty.
+/// Almost every false equation can be mended by one term more or by one less. Such a term is what the author
+/// forgot only if it is one term, of no higher order in time than what the line speaks of: an equation of rest
+/// lacks no acceleration. A term too many is a slip if enough is left without it. Counted on 208 derivations of
+/// people: where another change mends a line, four of five are mistakes; where any term more does, one of three;
+/// where any term less does, one of eleven; where no change does, one of twenty-six.
+
+#include <functional>
+#include <optional>
+#include <string>
 
 #include "check/derivation/system.hpp"
 
 namespace alembert {
 
-/// `order`: 2 if accelerations or forces of constraints stand in the claim, 1 if rates do, else 0.
-bool explains(const Slip& slip, const LineClaim& claim, int order);
+/// The highest derivative in an expression: 2 of accelerations and forces of constraints, 1 of rates, else 0;
+/// nothing if it has no value.
+using OrderOf = std::function<std::optional<int>(const std::string& expression)>;
+
+bool is_plausible(const Slip& slip, const LineClaim& claim, const OrderOf& order);
 
 /// The same of what is said of states of rest, where a factor of coordinates may make anything vanish.
-bool explains_rest(const Slip& slip, const LineClaim& claim, const std::vector<std::string>& coordinates);
+bool is_plausible_at_rest(const Slip& slip, const LineClaim& claim, const OrderOf& order,
+                          const std::vector<std::string>& coordinates);
 
 }  // namespace alembert

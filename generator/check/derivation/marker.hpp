@@ -209,7 +209,7 @@ private:
     bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text, bool turned);
     bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
-    void hold_against_momenta(MarkedLine& line, const Math& value);
+    void hold_against_momenta(MarkedLine& line, const Math& letter, const Math& value);
     void hold_momenta(const std::string& name, const ClaimText& text, const ClaimText& own,
                       std::optional<std::size_t> wrong);
     std::vector<Binding> bindings(const Letter& letter) const;
@@ -298,7 +298,10 @@ private:
     std::map<std::string, GiNaC::ex> known_to_check() const;
     void find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     void seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
+    bool is_plausible(const std::optional<Slip>& slip, const LineClaim& claim);
+    std::optional<int> order_of(const std::string& expression);
     int order_of(const LineClaim& claim);
+    bool has_quantity(const LineNotes& notes) const;
     bool has_one_reading(std::size_t k) const;
     bool holds_parameter(const LineClaim& claim);
     void withhold_unexplained(std::size_t k);

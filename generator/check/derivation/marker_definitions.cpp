@@ -37,7 +37,8 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool 
     }
     if (heard_.abbreviations || letters_.is_authors(lone.letter->letter)) {
         define(line, *lone.letter, rhs, lone.power);
-        if (lone.power == 1 && speaks_of_angular_momentum(statement_->words)) hold_against_momenta(line, rhs);
+        if (lone.power == 1 && speaks_of_angular_momentum(statement_->words))
+            hold_against_momenta(line, *lone.letter, rhs);
         return true;
     }
     if (bind_to_part(lone.letter->letter, &rhs)) return false;
@@ -49,9 +50,35 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool 
     return true;
 }
 
+namespace {
+
+/// What else than a generalized momentum may be called the angular momentum: a sum of some, x p_y − y p_x; of each
+/// also what it is for a unit of mass, r² φ'.
+std::vector<ex> other_angular_momenta(const Mechanism& m, const std::vector<ex>& momenta) {
+    std::vector<ex> result;
+    constexpr std::size_t most_summed = 4;
+    const std::size_t n = std::min(momenta.size(), most_summed);
+    for (std::size_t chosen = 1; chosen < (std::size_t{1} << n); ++chosen) {
+        ex sum = 0;
+        for (std::size_t i = 0; i < n; ++i)
+            if ((chosen >> i) & 1) sum += momenta[i];
+        result.push_back(sum);
+    }
+    for (std::size_t i = 0; i < momenta.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) result.push_back(m.q[j] * momenta[i] - m.q[i] * momenta[j]);
+    for (const ex& momentum : std::vector<ex>(result))
+        for (const auto& mass : m.parameters) {
+            const ex of_unit = m.z->pull_back({{momentum, 1}}, {mass.symbol})[0];
+            if (m.z->depends(of_unit, m.q) && !m.z->depends(of_unit, {mass.symbol})) result.push_back(of_unit);
+        }
+    return result;
+}
+
+}  // namespace
+
 /// L = m l² θ' as an angular momentum: right if it is a generalized momentum; of another one it is not known about
 /// which point it is.
-void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
+void Marker::hold_against_momenta(MarkedLine& line, const Math& letter, const Math& value) {
     const Mechanism& m = system_.mechanism();
     MotionRows& rows = system_.rows();
     const ex stated = truth_.value(claim_text(value, as_written()).text);
@@ -60,26 +87,31 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& value) {
         line.status = LineStatus::right;
         return;
     }
-    const bool is_one = std::any_of(momenta.begin(), momenta.end(), [&](const ex& momentum) {
-        return rows.is_identity(rows.row(stated - momentum)) == true;
-    });
+    const auto is_among = [&](const std::vector<ex>& candidates) {
+        return std::any_of(candidates.begin(), candidates.end(), [&](const ex& momentum) {
+            return rows.is_identity(rows.row(stated - momentum)) == true ||
+                   rows.is_identity(rows.row(stated + momentum)) == true;
+        });
+    };
+    if (is_among(momenta) || is_among(other_angular_momenta(m, momenta))) {
+        line.status = LineStatus::right;
+        line.reason = is_among(momenta) ? say("a generalized momentum") : say("an angular momentum");
+        return;
+    }
     const bool is_kept = does_not_change(stated);
-    if (!is_one && !is_kept && speaks_of_conservation(heard_.around)) {
+    if (!is_kept && speaks_of_conservation(heard_.around)) {
         line.status = LineStatus::mistake;
         line.reason = say("it does not keep its value");
         return;
     }
-    const std::vector<ex> slopes = m.z->pull_back({{stated, 1}}, m.qdot);
-    const bool is_linear =
-        std::none_of(slopes.begin(), slopes.end(), [&](const ex& slope) { return m.z->depends(slope, m.qdot); });
-    if (!is_one && is_kept && is_linear) {  // no energy
+    if (is_kept && is_word_for_constant(letter.letter.base)) {
         line.status = LineStatus::right;
         line.reason = say("a constant of the motion");
         return;
     }
-    line.status = is_one ? LineStatus::right : LineStatus::undecided;
-    line.reason = is_one ? say("a generalized momentum")
-                         : say("an angular momentum that is none of the generalized momenta; it is not judged");
+    line.status = LineStatus::undecided;  // a multiple of a momentum keeps its value too
+    line.reason = is_kept ? say("a constant of the motion; whether it is the angular momentum is not judged")
+                          : say("an angular momentum that is none of the generalized momenta; it is not judged");
 }
 
 /// T + V = const: an expression that changes with the state and keeps its value.
@@ -278,6 +310,8 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     const std::string name = bind(letter.letter, truth);
     own_.state(name, stated, wrong);
     if (holds_decimals(rhs)) rounded_.insert(name);
+    const Mechanism& m = system_.mechanism();
+    if (power == 1 && m.z->depends(truth, m.qdot) && does_not_change(truth)) kept_.insert(name);
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
     if (power == 1) hold_momenta(name, text, own, wrong);

@@ -143,13 +143,13 @@ bool Marker::assumes_rest() const {
            speaks_of_special_motion(statement_->words) || begins_condition_of_state(statement_->words);
 }
 
-/// "Let θ = α and φ' = Ω be constant", "φ' = Ω = const", "it starts from rest at θ = α": a letter for the value of
+/// "Let θ = α and φ' = Ω be constant", "φ' = Ω = const", "it is released at θ = α": a letter for the value of
 /// a coordinate or of its rate in a steady motion or at the start.
 bool Marker::is_steady_value(const Math& side, const Math& letter) {
     const Lone last = lone_letter(*statement_->sides.back());
     const bool is_chain_to_constant = statement_->sides.size() > 2 && side.dots > 0 && last.letter != nullptr &&
                                       is_word_for_constant(last.letter->letter.base);
-    const bool is_start = heard_.start_from_rest && side.dots == 0 && begins_condition_of_state(statement_->words);
+    const bool is_start = speaks_of_start(heard_.around);
     const bool is_said = heard_.steady_lines > 0 || heard_.condition_lines > 0 || is_chain_to_constant ||
                          is_start || speaks_of_constant_value(heard_.around);
     if (!is_said || side.kind != Kind::letter || side.dots > 1 || letter.kind != Kind::letter || letter.dots > 0)

@@ -117,7 +117,6 @@ void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& 
         return;
     if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_along_motion(line, sides) ||
         is_equilibrium(line, sides) || is_given_value(line, sides) || is_on_branch(line, sides) ||
-
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
         holds_at_rest(line, sides) || holds_at_some_rest(line, sides) || holds_near(line, sides, row.residual) ||
         holds_near_some_rest(line, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides) ||

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/language/say.hpp"
+#include "check/claims.hpp"
 #include "check/derivation/explanation.hpp"
 #include "check/written/words.hpp"
 
@@ -76,64 +77,75 @@ bool Marker::holds_parameter(const LineClaim& claim) {
     return m.z->depends(truth_.value(claim.lhs) - truth_.value(claim.rhs), parameters);
 }
 
+bool Marker::is_plausible(const std::optional<Slip>& slip, const LineClaim& claim) {
+    return slip && alembert::is_plausible(*slip, claim, [this](const std::string& of) { return order_of(of); });
+}
+
 /// The slip of a line that no small change makes right as it was read: one in what it says near a state, against
 /// what the derivation itself had before, of rest, or in what motions keep.
 void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known) {
-    const auto is_found = [&](const CheckedClaim& checked) {
-        return checked.likely && explains(*checked.likely, notes.claim, order_of(notes.claim));
-    };
-    if (is_found(line.checked)) return;
+    const LineClaim& claim = notes.claim;
+    if (is_plausible(line.checked.likely, claim)) return;
     if (notes.near) {
         CheckedClaim near = line.checked;
-        near.likely = slip_near(notes.claim, *notes.near, system_, known);
-        if (is_found(near)) return adopt(line, notes, std::move(near));
+        near.likely = slip_near(claim, *notes.near, system_, known);
+        if (is_plausible(near.likely, claim)) return adopt(line, notes, std::move(near));
     }
     if (!notes.own.empty()) {
-        CheckedClaim own = std::move(verdicts_on({notes.claim}, notes.own, system_)[0]);
-        if (is_found(own)) return adopt(line, notes, std::move(own));
+        CheckedClaim own = std::move(verdicts_on({claim}, notes.own, system_)[0]);
+        if (is_plausible(own.likely, claim)) return adopt(line, notes, std::move(own));
     }
-    const int order = order_of(notes.claim);
-    LineClaim at_rest = notes.claim;
-    at_rest.at_rest = true;
-    if (order == 0 && notes.is_of_rest && holds_parameter(notes.claim)) {
+    const int order = order_of(claim);
+    if (order == 0 && notes.is_of_rest && holds_parameter(claim)) {
+        LineClaim at_rest = claim;
+        at_rest.at_rest = true;
         CheckedClaim rest = std::move(verdicts_on({at_rest}, known, system_)[0]);
-        if (rest.likely && explains_rest(*rest.likely, notes.claim, letters_.coordinates()))
+        const auto order_there = [this](const std::string& of) { return order_of(of); };
+        if (rest.likely && is_plausible_at_rest(*rest.likely, claim, order_there, letters_.coordinates()))
             return adopt(line, notes, std::move(rest));
     }
-    if (order == 1 && notes.claim.constants.empty()) seek_in_integral(line, notes, known);
+    if (order == 1 && claim.constants.empty() && !has_quantity(notes)) seek_in_integral(line, notes, known);
 }
 
 /// The slip of θ'² = g (1 − cos θ)/R, which motions that start at rest keep: the change after which both sides
 /// differ by a constant.
 void Marker::seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known) {
-    static const std::string constant = "integration_constant", added = " + " + constant;
+    const std::string constant = letters_.free_name("const"), added = " + " + constant;
     LineClaim kept = notes.claim;
     kept.rhs += added;
     kept.constants = {constant};
-    CheckedClaim found = std::move(verdicts_on({kept}, known, system_)[0]);
-    if (found.verdict != Verdict::refuted || !found.likely) return;
-    std::string& repair = found.likely->repair;
-    if (!repair.ends_with(added) || !explains(*found.likely, notes.claim, 1)) return;
-    repair.erase(repair.size() - added.size());
-    found.nearest = repair;
-    found.difference.clear();
-    adopt(line, notes, std::move(found));
+    const CheckedClaim found = std::move(verdicts_on({kept}, known, system_)[0]);
+    const bool is_slip = found.verdict == Verdict::refuted && is_plausible(found.likely, notes.claim);
+    if (!is_slip || !found.likely->repair.ends_with(added)) return;
+    CheckedClaim as_written = line.checked;  // it fails at a state, whatever the constant
+    as_written.likely = found.likely;
+    as_written.nearest = found.likely->repair;
+    as_written.difference.clear();
+    adopt(line, notes, std::move(as_written));
 }
 
-/// 2 where accelerations or forces of constraints stand in the line, 1 where rates do.
 int Marker::order_of(const LineClaim& claim) {
-    const Mechanism& m = system_.mechanism();
-    const Equations& e = system_.equations();
-    if (claim.lhs.empty()) return 2;
+    return std::max(order_of(claim.lhs).value_or(2), order_of(claim.rhs).value_or(2));
+}
+
+/// Nothing of an expression that has no value here.
+std::optional<int> Marker::order_of(const std::string& expression) {
     try {
-        const GiNaC::ex residual = truth_.value(claim.lhs) - truth_.value(claim.rhs);
-        if (m.z->depends(residual, m.qddot) || m.z->depends(residual, e.lambda)) return 2;
-        return m.z->depends(residual, m.qdot) ? 1 : 0;
+        return alembert::order_of(truth_.value(expression), system_.mechanism());
     } catch (const NoMeaning&) {
     } catch (const std::domain_error&) {  // it divides by zero
     } catch (const std::overflow_error&) {
     }
-    return 2;
+    return std::nullopt;
+}
+
+/// T, V, L, E, H, momenta and forces: what they are leaves no constant open.
+bool Marker::has_quantity(const LineNotes& notes) const {
+    const auto is_one = [&](const std::string& name) {
+        return known_.contains(name) && !letters_.is_of_scene(name);
+    };
+    return std::any_of(notes.left.names.begin(), notes.left.names.end(), is_one) ||
+           std::any_of(notes.right.names.begin(), notes.right.names.end(), is_one);
 }
 
 /// Whether it can be read in one way only: stated, and not mentioned, in the scene's letters and those of energies
@@ -165,8 +177,7 @@ void Marker::withhold_unexplained(std::size_t k) {
     }
     const bool is_refuted = line.status == LineStatus::mistake && line.checked.verdict == Verdict::refuted;
     if (!is_refuted || notes_[k].is_sure) return;
-    const LineClaim& claim = notes_[k].claim;
-    if (line.checked.likely && explains(*line.checked.likely, claim, order_of(claim))) return;
+    if (is_plausible(line.checked.likely, notes_[k].claim)) return;
     const bool is_of_units = line.checked.likely && line.checked.likely->kind == "wrong_unit";
     if (has_one_reading(k) && !is_of_units) return;
     line.status = LineStatus::undecided;

@@ -266,16 +266,14 @@ void Marker::judge_work(MarkedLine& line, const Math& lhs, const Math& rhs) {
     for (const std::size_t i : wrong_here)  // rather one that is wrong in both readings
         if (!wrong || (!wrong_otherwise.contains(*wrong) && wrong_otherwise.contains(i))) wrong = i;
     const Math& work = *lhs.args[0];  // δW_g
-    const bool is_named = work.kind == Kind::letter && !work.letter.index.empty(),
-               is_of_part = is_named || names_part_of_forces(heard_.around);
+    const bool is_named = work.kind == Kind::letter && !work.letter.index.empty();
     if (wrong && is_work_of_part(truth)) {
-        line.status = is_of_part ? LineStatus::right : LineStatus::undecided;
+        line.status = LineStatus::undecided;
         line.reason =
-            is_of_part ? say("the virtual work of a part of the forces")
-                       : say("it is the virtual work of a part of the forces; if all are meant, some are missing");
+            say("it is the virtual work of a part of the forces; whether of that which is meant is not judged");
         return;
     }
-    if (wrong && is_of_part) {
+    if (wrong && (is_named || names_part_of_forces(heard_.around))) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("the words speak of a part of the forces");
         return;

@@ -89,6 +89,9 @@ bool mentions_special_motion(std::string_view words);
 /// "starts from rest": constants of the motion are zero.
 bool speaks_of_start_from_rest(std::string_view words);
 
+/// "It is released at θ = α", "initially θ' = β".
+bool speaks_of_start(std::string_view words);
+
 /// "The force function is": U, of which −U is the potential energy.
 bool speaks_of_force_function(std::string_view words);
 

@@ -27,12 +27,25 @@ bool begins_condition(std::string_view words) {
 }
 
 bool says_held(std::string_view words) {
-    return has_phrase(last_sentence(words),
-                      "is fixed|held|held fast|hold*|clamp*|locked|blocked|does not move|does not turn|"
-                      "festgehalten|fixiert|arretiert|blockiert|eingespannt|不动*|固定*|夹住*|锁定*|"
-                      "est fixe|est fixé*|maintenu*|bloque|bloqué*|immobilis*|está fij*|bloquead*|no se mueve|"
-                      "è fiss*|bloccat*|não se move|travad*|fixad*|unieruchomion*|nie porusza się|hålls fast|låst|"
-                      "закреплён*|закреплен*|неподвижн*|удержива*|固定され*|動かない*");
+    const std::string sentence = last_sentence(words);
+    if (denies(sentence) || has_phrase(sentence,
+                                       "is not|are not|nicht|n'est pas|no está|non è|não está|nie jest|är inte|"
+                                       "не закреплен*|未*|不固定*|没有*"))
+        return false;
+    if (has_phrase(sentence,
+                   "clamped|locked|blocked|held fast|festgehalten|arretiert|blockiert|bloqué*|immobilis*|"
+                   "bloquead*|bloccat*|travad*|unieruchomion*|hålls fast|låst|удержива*|夹住*|锁定*"))
+        return true;
+    const bool is_conditional =
+        begins_condition_of_state(sentence) ||
+        has_phrase(
+            sentence,
+            "let|assume|assuming|with|mit|angenommen|soit|avec|con|sea|sia|com|seja|z|med|设*|令*|时*|とき*");
+    return is_conditional &&
+           has_phrase(sentence,
+                      "is fixed|is held|are held|clamp*|does not move|does not turn|fixiert|eingespannt|"
+                      "est fixe|est fixé*|maintenu*|bloque|está fij*|no se mueve|è fiss*|não se move|fixad*|"
+                      "nie porusza się|закреплён*|закреплен*|неподвижн*|不动*|固定*|固定され*|動かない*");
 }
 
 bool states_condition(std::string_view words) {

@@ -175,6 +175,17 @@ bool speaks_of_start_from_rest(std::string_view words) {
         "|最初は静止*|はじめは静止*");
 }
 
+bool speaks_of_start(std::string_view words) {
+    return speaks_of_start_from_rest(words) ||
+           has_phrase(
+               in_lower_case(words),
+               "start|starts|started|starting|released|release|let go|thrown|initially|initial*|begins|at the "
+               "beginning|losgelassen|startet|beginnt|anfangs|anfänglich*|am anfang|zu beginn|lâché*|abandonné*|"
+               "initialement|au départ|se suelta|inicialmente|al principio|lasciat*|rilasciat*|inizialmente|"
+               "largad*|solt*|no início|puszczon*|początkowo|na początku|släpps|börjar|释放*|初始*|开始时*|起始*|"
+               "отпуск*|отпущ*|начальн*|в начале|放す*|放した*|初め*|はじめ*|最初*");
+}
+
 bool speaks_of_impact(std::string_view words) {
     return has_phrase(
         in_lower_case(words),

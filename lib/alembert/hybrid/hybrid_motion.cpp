@@ -176,8 +176,11 @@ private:
         for (const Round& round : rounds) {
             const Impulses given =
                 contacts_.kicks.impulses(round.events, now_.t, round.before.data(), rates.data());
-            if (given.refusal) fail(FailureKind::endless_kicks, *given.refusal);
-            for (std::size_t i = 0; i < given.list.size() && !given.refusal; ++i) {
+            if (given.refusal) {
+                fail(FailureKind::endless_kicks, *given.refusal);
+                return {};
+            }
+            for (std::size_t i = 0; i < given.list.size(); ++i) {
                 const VectorXd& one = given.list[i];
                 if (one.size() == 0) continue;
                 if (EventRecord* const record = last_record(round.events[i]))
@@ -229,7 +232,9 @@ private:
             const bool passes =
                 std::abs(old[k]) > zero && (contacts_.kicks.is_of_modes(k) ? beyond >= -zero : beyond > zero);
             const auto is_it = [k](const LastZero& known) { return known.event == static_cast<int>(k); };
-            if (!passes || std::any_of(halt.passed.begin(), halt.passed.end(), is_it)) continue;
+            const auto before = std::find_if(halt.passed.begin(), halt.passed.end(), is_it);
+            if (!passes || (before != halt.passed.end() && before->counts)) continue;
+            if (before != halt.passed.end()) halt.passed.erase(before);  // it passed the other way
             const Event& event = mode_->events.list[k];
             LastZero here{.event = static_cast<int>(k), .direction = old[k] > 0 ? -1 : 1};
             here.counts = event.direction == 0 || event.direction == here.direction;
