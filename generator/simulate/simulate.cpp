@@ -100,22 +100,7 @@ public:
                 reach(state);
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
-        modes.on_side_change = [&](const ModeChange& change, const std::string& name,
-                                   const std::vector<Switched::Rubbing>& frictions) {
-            if (watch.is_over) return;
-            if (frictions.empty()) run_.side_changes.push_back({change.time, name, change.kind});
-            for (const Switched::Rubbing& one : frictions)
-                note(run_.friction_changes,
-                     {change.time, one.friction, one.direction * change.side, change.direction});
-        };
-        modes.on_side_begin = [&](const ModeChange& change, const std::vector<Switched::Rubbing>& frictions) {
-            // What an impact leaves of a velocity may be rounding.
-            if (watch.is_over || (has_contacts_ && change.time != set_at_)) return;
-            for (const Switched::Rubbing& one : frictions)  // after an event it may stick no more
-                if (sticks(one.friction))
-                    note(run_.friction_changes,
-                         {change.time, one.friction, one.direction * change.side, change.direction});
-        };
+        tell_sides(modes, watch);
         const LoadedMode& free = modes({});
         if (wishes_.reactions && has_reactions(run_.mechanism))
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
@@ -160,6 +145,27 @@ public:
     }
 
 private:
+    /// What friction and the sides of functions do along the motion, until `watch` is over.
+    void tell_sides(LoadedModes& modes, const Watch& watch) {
+        modes.on_side_change = [this, &watch](const ModeChange& change, const std::string& name,
+                                              const std::vector<Switched::Rubbing>& frictions) {
+            if (watch.is_over) return;
+            if (frictions.empty()) run_.side_changes.push_back({change.time, name, change.kind});
+            for (const Switched::Rubbing& one : frictions)
+                note(run_.friction_changes,
+                     {change.time, one.friction, one.direction * change.side, change.direction});
+        };
+        modes.on_side_begin = [this, &watch](const ModeChange& change,
+                                             const std::vector<Switched::Rubbing>& frictions) {
+            // What an impact leaves of a velocity may be rounding.
+            if (watch.is_over || (has_contacts_ && change.time != set_at_)) return;
+            for (const Switched::Rubbing& one : frictions)  // after an event it may stick no more
+                if (sticks(one.friction))
+                    note(run_.friction_changes,
+                         {change.time, one.friction, one.direction * change.side, change.direction});
+        };
+    }
+
     void prepare_contacts() {
         if (!has_jumps(run_.mechanism)) return;
         view_.emplace(run_.mechanism);
