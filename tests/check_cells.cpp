@@ -200,6 +200,21 @@ m*x'' + k*sign(x)*abs(abs(x) - b) = 0
     }
 }
 
+TEST_CASE("check: the start tells no sign of a root to a claim whose condition excludes the start") {
+    const auto verdict = [](const std::string& equation, const std::string& where) {
+        const std::string scene = pushed_by("0", "{ initial = 1.1 }") +
+                                  fmt::format("[[claim]]\nequation = \"{}\"\nwhere = \"{}\"\n", equation, where);
+        const Prepared made = prepared(parse_scene(scene, "scene.toml"), {}, true);
+        return check(made.scene, made.mechanism, made.sheets).claims[0].verdict;
+    };
+    for (const std::string where : {"x^2 > 3", "x' > x + 5", "sin(x) < 0"}) {
+        CAPTURE(where);
+        CHECK(verdict("sqrt(1 - sin(x - 20)^2) = cos(x - 20)", where) == refuted);
+    }
+    CHECK(verdict("sqrt(x^2) = -x", "x < 0") == Verdict::vacuous);
+    CHECK(verdict("sqrt(x^2) = x", "x < 0") == refuted);
+}
+
 TEST_CASE("check: a cell that arithmetic modulo a prime takes for another one proves nothing") {
     for (const std::string start : {"-1.9", "9", "20"}) {  // |x − 7| − |x| is −7 from 7 on
         CAPTURE(start);

@@ -145,6 +145,22 @@ TEST_CASE("equilibrium: a pitchfork is found once, where the stiffness of both b
         }
 }
 
+TEST_CASE("equilibrium: where every state is one, the branches meet one family, from either side") {
+    for (const char* range : {"p=-1:1", "p=1:-1", "p=0:1", "p=-2:0.3"}) {
+        CAPTURE(std::string(range));
+        const Json found = json_of({"equilibrium", pushed("p*sin(x)"), "--vary", range, "--json"});
+        std::size_t families = 0;
+        for (const Json& branch : found["branches"])
+            if (branch.contains("family_at")) {
+                ++families;
+                CHECK(std::abs(branch["family_at"].get<double>()) < 1e-12);
+            }
+        CHECK(families == 1);
+        CHECK(found["branches"].size() == 3);
+        for (const Json& point : found["points"]) CHECK(point["kind"] == "family");
+    }
+}
+
 // V = (x - a)^5/5 along the soft direction: the force is never positive there, so that every such rest is
 // unstable, and Newton's method comes no nearer to it than 1e-4.
 TEST_CASE("equilibrium, stability: a rest of high multiplicity is one, and unstable where its state is exact") {

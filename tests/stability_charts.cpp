@@ -136,6 +136,39 @@ TEST_CASE("charts: the locus of the bicycle has the published weave and capsize 
     CHECK(locus.crossings[1].kind == SpectrumKind::divergence);
 }
 
+TEST_CASE("charts: the roots are those of one state that is followed, and a fold ends it") {
+    const Scene hoop = scene_of_text(R"toml(
+[parameters]
+W = 1
+[coordinates]
+th = 0.1
+[energy]
+kinetic = "th'^2/2"
+potential = "-cos(th) - W^2*sin(th)^2/2"
+[dissipation]
+rayleigh = "0.05*th'^2"
+)toml");
+    const RootLocus at_rest = root_locus(hoop, {"W", 0.5, 1.5, 11});
+    REQUIRE(at_rest.crossings.size() == 1);
+    CHECK(std::abs(at_rest.crossings[0].value - 1) < 1e-9);
+    CHECK(at_rest.jumps.empty());
+    // x² = p − 0.3 of a fold: no state before.
+    const Scene fold = scene_of_text(R"toml(
+[parameters]
+p = 1
+[coordinates]
+x = 0.8
+[forces]
+x = "-x' + p - 0.3 - x^2"
+[energy]
+kinetic = "x'^2/2"
+)toml");
+    const RootLocus ended = root_locus(fold, {"p", 1, 0, 21});
+    REQUIRE(ended.gaps().size() == 1);
+    CHECK(std::abs(ended.gaps()[0].first - 0.3) < 0.06);
+    CHECK(ended.gaps()[0].second == 0);
+}
+
 TEST_CASE("exponents: linear systems have the real parts of their eigenvalues, and the sum is the divergence") {
     const LyapunovExponents damped = lyapunov_exponents(
         scene_of_text(

@@ -85,6 +85,11 @@ RootSheets::RootSheets(const Mechanism& m)
     start_[m.t] = m.run.start ? values.number(m.z->expand(*m.run.start)) : 0.0;
 }
 
+void RootSheets::suppose(std::vector<ex> positive) {
+    supposed_ = std::move(positive);
+    is_elsewhere_ = std::any_of(supposed_.begin(), supposed_.end(), [&](const ex& e) { return at_start(e) <= 0; });
+}
+
 double RootSheets::at_start(const ex& e) const {
     const ex value = e.subs(start_, GiNaC::subs_options::no_pattern).evalf();
     if (!GiNaC::is_a<numeric>(value) || !GiNaC::ex_to<numeric>(value).is_real()) return std::nan("");
@@ -119,7 +124,10 @@ std::optional<ex> RootSheets::root(const ex& square, Intermediates& z, Of of) {
     const auto is_length = [&](const ex& factor) {
         const bool is_sum = GiNaC::is_a<GiNaC::add>(factor) ||
                             (GiNaC::is_a<GiNaC::power>(factor) && GiNaC::is_a<GiNaC::add>(factor.op(0)));
-        return is_of_positions(factor) && (of == Of::distance || !is_sum || !z.depends(factor, moving_));
+        const bool has_sign = !is_elsewhere_ || of == Of::distance || !z.depends(factor, moving_) ||
+                              is_known_positive(factor) || is_known_positive(-factor);
+        return is_of_positions(factor) && has_sign &&
+               (of == Of::distance || !is_sum || !z.depends(factor, moving_));
     };
     const auto sort = [&](const ex& factor) { (is_length(factor) ? length : rest) *= factor; };
     if (GiNaC::is_a<GiNaC::mul>(*found))

@@ -28,8 +28,9 @@ class RootSheets {
 public:
     explicit RootSheets(const Mechanism& mechanism);
 
-    /// Takes these to be positive from now on, wherever the motion starts.
-    void suppose(std::vector<GiNaC::ex> positive) { supposed_ = std::move(positive); }
+    /// Takes these to be positive from now on, wherever the motion starts. If it does not start there, its start
+    /// says nothing of formulas: √(e²) is |e| where no sign of e follows from what is supposed.
+    void suppose(std::vector<GiNaC::ex> positive);
 
     /// What the square of a length is: a distance in the mechanism, or what somebody writes as a root, where a sum
     /// with coordinates, √((x − a)²), is no length of its own.
@@ -69,6 +70,7 @@ private:
     std::vector<GiNaC::symbol> moving_;
     std::vector<GiNaC::symbol> above_zero_;  ///< parameters
     std::vector<GiNaC::ex> supposed_, positive_, needed_;
+    bool is_elsewhere_ = false;  ///< whether the start is outside of what is supposed
 };
 
 struct OnSheets {

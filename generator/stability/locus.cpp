@@ -54,29 +54,36 @@ class Following {
 public:
     Following(RootLocus& locus, const Spectra& spectra) : locus_(locus), spectra_(spectra) {}
 
-    Spectra::Roots at(double value) const { return spectra_.at({value}).value_or(Spectra::Roots()); }
+    /// The roots at the state that is reached from the one of the value before.
+    Spectra::Roots at(double value) const {
+        Spectra::Place near = place_;
+        return spectra_.following({value}, near).value_or(Spectra::Roots());
+    }
 
-    void add(double value, const Spectra::Roots& roots, int depth = 0) {
+    void add(double value, int depth = 0) {
+        Spectra::Place place = place_;
+        const Spectra::Roots roots = spectra_.following({value}, place).value_or(Spectra::Roots());
         if (!locus_.roots.empty() && !roots.empty() && !locus_.roots.back().empty()) {
             const Spectra::Roots ordered = in_order(locus_.roots.back(), roots);
-            const double before = locus_.values.back(), middle = (before + value) / 2;
+            const double before = locus_.values.back();
             largest_ = std::max(largest_, size_of(roots));
             const double moved = way(locus_.roots.back(), ordered);
             if (depth < deepest_halving &&
                 moved > farthest * std::max(size_of(locus_.roots.back()), size_of(ordered))) {
-                add(middle, at(middle), depth + 1);
-                add(value, roots, depth + 1);
+                add((before + value) / 2, depth + 1);
+                add(value, depth + 1);
                 return;
             }
             if (moved > farthest * largest_)
                 locus_.jumps.push_back((before + value) / 2);
             else
                 look_for_crossing(before, value, ordered);
-            locus_.roots.push_back(in_order(locus_.roots.back(), roots));
+            locus_.roots.push_back(ordered);
         } else {
             locus_.roots.push_back(roots);
         }
         locus_.values.push_back(value);
+        place_ = std::move(place);
     }
 
 private:
@@ -157,10 +164,23 @@ private:
 
     RootLocus& locus_;
     const Spectra& spectra_;
-    double largest_ = 0;  ///< root so far
+    Spectra::Place place_;  ///< of the last value
+    double largest_ = 0;    ///< root so far
 };
 
 }  // namespace
+
+std::vector<std::pair<double, double>> RootLocus::gaps() const {
+    std::vector<std::pair<double, double>> result;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!roots[k].empty()) continue;
+        if (k > 0 && roots[k - 1].empty())
+            result.back().second = values[k];
+        else
+            result.emplace_back(values[k], values[k]);
+    }
+    return result;
+}
 
 RootLocus root_locus(Scene scene, const Axis& axis, const ChartOptions& options) {
     argument::need_positive_if_given("period", options.stability.period);
@@ -180,7 +200,7 @@ RootLocus root_locus(Scene scene, const Axis& axis, const ChartOptions& options)
         const double part = static_cast<double>(k) / static_cast<double>(axis.count - 1);
         if (options.progress) options.progress(say("the roots"), part);
         const double value = axis.from + (axis.to - axis.from) * part;
-        following.add(value, following.at(value));
+        following.add(value);
     }
     return locus;
 }

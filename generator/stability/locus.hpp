@@ -38,6 +38,8 @@ struct RootLocus {
         return static_cast<std::size_t>(
             std::count_if(roots.begin(), roots.end(), [](const Spectra::Roots& at) { return at.empty(); }));
     }
+    /// The first and the last of each row of values without roots.
+    std::vector<std::pair<double, double>> gaps() const;
 };
 
 /// Throws as stability_chart.

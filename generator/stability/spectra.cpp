@@ -123,6 +123,13 @@ Spectra::Spectra(Scene scene, const StabilityOptions& options, const std::vector
         take_equilibrium(d, all(middle));
 }
 
+std::optional<Spectra::Roots> Spectra::following(const std::vector<double>& values, Place& near) const {
+    if (!near.empty())
+        if (auto roots = at_(values, near)) return roots;
+    near.clear();
+    return at_(values, near);
+}
+
 std::vector<double> Spectra::all(const std::vector<double>& values) const {
     std::vector<double> result = held_;
     result.insert(result.end(), values.begin(), values.end());
@@ -136,8 +143,8 @@ void Spectra::take_polynomial(const Scene& scene, const StabilityOptions&) {
     const auto starts = std::make_shared<const Starts>(m, names_);
     auto program = std::make_shared<Program>(begun(m));
     const std::vector<int> nodes = lower_expressions(*program, m, polynomial->coefficients);
-    at_ = [this_all = held_, polynomial, starts, program,
-           nodes](const std::vector<double>& values) -> std::optional<Roots> {
+    at_ = [this_all = held_, polynomial, starts, program, nodes](const std::vector<double>& values,
+                                                                 Place&) -> std::optional<Roots> {
         std::vector<double> given = this_all;
         given.insert(given.end(), values.begin(), values.end());
         State<double> state;
@@ -166,14 +173,18 @@ void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const st
     const auto problem = std::make_shared<const SteadyProblem>(d->mechanism, d->equations, starts->at(middle));
     Instant<long double> between = problem->start();
     if (problem->settle_at(between)) LeftOut(d->mechanism).check(problem->start_at(starts->at(middle), between));
-    at_ = [held = held_, d, starts, problem](const std::vector<double>& values) -> std::optional<Roots> {
+    at_ = [held = held_, d, starts, problem](const std::vector<double>& values,
+                                             Place& near) -> std::optional<Roots> {
         std::vector<double> given = held;
         given.insert(given.end(), values.begin(), values.end());
         const Possible<Start> start = starts->possible(given);
         if (!start.exists()) return {};
-        const auto root = problem->solve(
-            instant_of<long double>(problem->residuals(), state_of(start.value(), d->mechanism, d->equations)));
+        Instant<long double> from =
+            instant_of<long double>(problem->residuals(), state_of(start.value(), d->mechanism, d->equations));
+        if (!near.empty()) from.q = near;
+        const auto root = problem->solve(from);
         if (!root) return {};
+        near = root->at.q;
         return roots_of(essential_motion(*problem, root->at));
     };
 }
@@ -185,14 +196,16 @@ void Spectra::take_motion(const std::shared_ptr<const Derived>& d, const Stabili
     if (const Possible<Start> between = starts->possible(middle); between.exists())
         LeftOut(d->mechanism).check(between.value());
     const auto system = std::make_shared<const PeriodicSystem>(*d);
-    at_ = [held = held_, d, starts, system,
-           period = options.period](const std::vector<double>& values) -> std::optional<Roots> {
+    at_ = [held = held_, d, starts, system, period = options.period](const std::vector<double>& values,
+                                                                     Place& near) -> std::optional<Roots> {
         std::vector<double> given = held;
         given.insert(given.end(), values.begin(), values.end());
         const Possible<Start> start = starts->possible(given);
         if (!start.exists()) return {};
         PeriodicMotion<double> motion = system->motion<double>(start.value(), period);
+        if (!near.empty()) motion.x.assign(near.begin(), near.end());
         if (!(motion.period > 0) || !system->shoot(motion)) return {};
+        near.assign(motion.x.begin(), motion.x.end());
         const PeriodEnd<double> end = system->monodromy(motion, 1e-11);
         if (!end.finished) return {};
         const auto size = static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(end.Phi.size()))));

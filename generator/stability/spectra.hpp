@@ -8,8 +8,8 @@
 ///     const auto roots = spectra.at({2.5, 1});           // nothing where there is no equilibrium
 ///     kind_of(*roots, spectra.of());                      // divergence, flutter …
 ///
-/// The equilibrium is the one that Newton's method reaches from the scene's state at these parameters; a periodic
-/// motion is found by shooting from there.
+/// The equilibrium is the one that Newton's method reaches from the scene's state at these parameters, or from the
+/// one that was found beside; a periodic motion is found by shooting from there.
 
 #include <complex>
 #include <functional>
@@ -43,7 +43,15 @@ public:
 
     SpectrumOf of() const { return of_; }
     const std::string& title() const { return title_; }
-    std::optional<Roots> at(const std::vector<double>& values) const { return at_(values); }
+    /// The coordinates of an equilibrium, or the state with which a periodic motion begins; empty if none is
+    /// known.
+    using Place = std::vector<long double>;
+    std::optional<Roots> at(const std::vector<double>& values) const {
+        Place anywhere;
+        return at_(values, anywhere);
+    }
+    /// From `near` on, which then is what was found; from the scene's state if that leads nowhere.
+    std::optional<Roots> following(const std::vector<double>& values, Place& near) const;
 
 private:
     void take_polynomial(const Scene& scene, const StabilityOptions& options);
@@ -56,7 +64,7 @@ private:
     std::string title_;
     std::vector<std::string> names_;  ///< those that are held first
     std::vector<double> held_;
-    std::function<std::optional<Roots>(const std::vector<double>&)> at_;
+    std::function<std::optional<Roots>(const std::vector<double>&, Place&)> at_;
 };
 
 /// How far the worst root lies beyond the axis (its real part) or the unit circle (its size less 1).

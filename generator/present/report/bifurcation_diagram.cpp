@@ -55,6 +55,7 @@ const char* colour_of(PointKind kind) {
         case PointKind::hamiltonian_hopf:
             return "#c2338a";
         case PointKind::touching:
+        case PointKind::family:
             break;
     }
     return "#5b5b5b";

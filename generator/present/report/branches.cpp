@@ -25,6 +25,7 @@ Json as_json(const Branches& found) {
             rows.push_back(std::move(row));
         }
         result["branches"].push_back({{"closed", branch.closed}, {"points", std::move(rows)}});
+        if (branch.family_at) result["branches"].back()["family_at"] = *branch.family_at;
     }
     result["points"] = Json::array();
     for (const SpecialPoint& point : found.points)
@@ -46,6 +47,11 @@ std::string as_text(const Branches& found) {
            found.branches.size() == 1 ? "" : "es", parameter, found.from / unit.size, found.to / unit.size);
     for (std::size_t k = 0; k < found.branches.size(); ++k) {
         const Branch& branch = found.branches[k];
+        if (branch.family_at) {
+            say_on(page, "  {:>2}. {} = {:.10g}, a family of states, {} points{}\n", k + 1, parameter,
+                   *branch.family_at / unit.size, branch.points.size(), branch.closed ? say(", closed") : "");
+            continue;
+        }
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (const BranchPoint& point : branch.points)
             low = std::min(low, point.parameter), high = std::max(high, point.parameter);
@@ -54,8 +60,11 @@ std::string as_text(const Branches& found) {
     }
     put(page, "\n");
     for (const SpecialPoint& point : found.points) {
-        say_on(page, "{} at {} = {:.12g}\n", translated(name_of(point.kind)), parameter,
-               point.parameter / unit.size);
+        if (point.kind == PointKind::family)
+            say_on(page, "meets a family of states at {} = {:.12g}\n", parameter, point.parameter / unit.size);
+        else
+            say_on(page, "{} at {} = {:.12g}\n", translated(name_of(point.kind)), parameter,
+                   point.parameter / unit.size);
         for (int i = 0; i < m.size(); ++i) {
             if (!found.essential[i]) continue;
             const ShownUnit shown(m.shown_units[static_cast<std::size_t>(i)]);

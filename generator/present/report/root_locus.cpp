@@ -122,6 +122,7 @@ Json as_json(const RootLocus& locus) {
         for (const auto& root : roots) result["roots"].back().push_back({root.real() + 0.0, root.imag() + 0.0});
     }
     result["without_roots"] = locus.without_roots();
+    result["gaps"] = locus.gaps();
     result["jumps"] = locus.jumps;
     result["crossings"] = Json::array();
     for (const RootLocus::Crossing& one : locus.crossings)
@@ -147,6 +148,9 @@ std::string as_text(const RootLocus& locus) {
             page,
             "At {} of {} values no state was found or it has no first approximation; nothing is said of them.\n",
             without, locus.values.size());
+    for (const auto& [from, to] : locus.gaps())
+        say_on(page, "    {} from {:.6g} to {:.6g}\n", locus.unit.label(locus.name), from / locus.unit.size,
+               to / locus.unit.size);
     for (const double jump : locus.jumps)
         say_on(
             page,

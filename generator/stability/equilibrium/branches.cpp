@@ -22,6 +22,7 @@ constexpr int most_branches = 60;
 constexpr int places = 7;                 // values of the parameter at which all equilibria are searched
 constexpr long double on_branch = 2e-3L;  // in y: how near a curve is to the points between which it was traced
 constexpr long double leave = 0.01L;      // first step away from a crossing
+constexpr double one_value = 1e-9;        // of the range: a curve within has one value of the parameter
 constexpr long double same_point = 1e-5L, same_crossing = 1e-3L;  // of y
 
 class BranchSearch {
@@ -69,6 +70,7 @@ public:
                     follow_from(tracer, *start);
                 }
         }
+        tell_families(tracer);
         std::sort(result_.points.begin(), result_.points.end(),
                   [](const SpecialPoint& a, const SpecialPoint& b) { return a.parameter < b.parameter; });
         result_.essential = problem_.essential();
@@ -133,10 +135,35 @@ private:
                     {*one.kind, point.parameter, wrapped(one.point.at), result_.branches.size()});
             branch.points.push_back(std::move(point));
         }
+        branch.family_at = one_parameter_of(branch);
         result_.branches.push_back(std::move(branch));
         std::vector<Column> curve;
         for (const FollowedPoint& one : followed.points) curve.push_back(tracer.place(one.point.at, one.point.p));
         curves_.push_back(std::move(curve));
+    }
+
+    std::optional<double> one_parameter_of(const Branch& branch) const {
+        const auto [low, high] = std::minmax_element(
+            branch.points.begin(), branch.points.end(),
+            [](const BranchPoint& a, const BranchPoint& b) { return a.parameter < b.parameter; });
+        const double range = options_.to - options_.from;
+        if (branch.points.size() < 2 || high->parameter - low->parameter > one_value * range) return std::nullopt;
+        const double middle = (low->parameter + high->parameter) / 2;
+        return std::abs(middle) < one_value * range ? 0 : middle;
+    }
+
+    /// Without gravity each state of a pendulum is one of rest: there a branch meets a family, and is not forked.
+    void tell_families(const Tracer& tracer) {
+        for (SpecialPoint& point : result_.points)
+            for (std::size_t k = 0; k < result_.branches.size(); ++k) {
+                const std::optional<double> value = result_.branches[k].family_at;
+                if (!value || std::abs(point.parameter - *value) > same_crossing) continue;
+                Instant<long double> there = at(point.parameter);
+                there.q.assign(point.q.begin(), point.q.end());
+                if (!is_on(curves_[k], tracer.place(there, *value))) continue;
+                point.kind = PointKind::family;
+                point.parameter = *value;
+            }
     }
 
     std::vector<double> wrapped(Instant<long double> at) const {
@@ -171,13 +198,17 @@ private:
 
     /// Is the point on a curve that was followed?
     bool is_known(const Column& y) const {
-        for (const std::vector<Column>& curve : curves_)
-            for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
-                const Column along = curve[k + 1] - curve[k], to = difference(y, curve[k]);
-                const long double square = along.squaredNorm();
-                const long double part = square > 0 ? std::clamp(to.dot(along) / square, 0.0L, 1.0L) : 0;
-                if ((to - part * along).norm() < on_branch) return true;
-            }
+        return std::any_of(curves_.begin(), curves_.end(),
+                           [&](const std::vector<Column>& curve) { return is_on(curve, y); });
+    }
+
+    bool is_on(const std::vector<Column>& curve, const Column& y) const {
+        for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
+            const Column along = difference(curve[k + 1], curve[k]), to = difference(y, curve[k]);
+            const long double square = along.squaredNorm();
+            const long double part = square > 0 ? std::clamp(to.dot(along) / square, 0.0L, 1.0L) : 0;
+            if ((to - part * along).norm() < on_branch) return true;
+        }
         return false;
     }
 

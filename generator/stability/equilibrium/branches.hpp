@@ -34,6 +34,7 @@ struct BranchPoint {
 struct Branch {
     std::vector<BranchPoint> points;
     bool closed = false;
+    std::optional<double> family_at = {};  ///< the one value of the parameter at which all of its states are
 };
 
 struct SpecialPoint {

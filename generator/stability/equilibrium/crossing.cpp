@@ -41,6 +41,8 @@ const char* name_of(PointKind kind) {
             return to_say("transcritical");
         case PointKind::touching:
             return to_say("touching");
+        case PointKind::family:
+            return to_say("family");
         case PointKind::hopf:
             return to_say("hopf");
         case PointKind::hamiltonian_hopf:

@@ -14,7 +14,7 @@
 
 namespace alembert {
 
-enum class PointKind { fold, pitchfork, transcritical, touching, hopf, hamiltonian_hopf };
+enum class PointKind { fold, pitchfork, transcritical, touching, family, hopf, hamiltonian_hopf };
 const char* name_of(PointKind kind);
 
 struct BranchCrossing {
