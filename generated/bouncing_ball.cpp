@@ -6,6 +6,7 @@
 // M(q) q'' = f(q, q', t).
 // This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
+//   left out        the contact floor; between them this is the motion
 //   t               the time [s]
 //   state[2]        y [m], then their rates
 //   rate[2]         d state / dt
@@ -33,7 +34,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"  // some are for other types of numbers
 #pragma GCC diagnostic ignored "-Wpsabi"            // all functions with vectors are inline
-namespace bouncing_ball::code_f14169fb {
+namespace bouncing_ball::code_61771972 {
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
@@ -176,51 +177,51 @@ constexpr alembert_tables all{
 };
 
 }  // namespace
-}  // namespace bouncing_ball::code_f14169fb
+}  // namespace bouncing_ball::code_61771972
 #pragma GCC diagnostic pop
 
 namespace bouncing_ball {
-using code_f14169fb::parameter_values;
-using code_f14169fb::coordinate_names;
-using code_f14169fb::speed_names;
-using code_f14169fb::parameter_names;
-using code_f14169fb::output_names;
-using code_f14169fb::event_names;
-using code_f14169fb::table;
-using code_f14169fb::prepare;
-using code_f14169fb::rhs;
-using code_f14169fb::mass_forcing;
-using code_f14169fb::energy;
-using code_f14169fb::outputs_at;
+using code_61771972::parameter_values;
+using code_61771972::coordinate_names;
+using code_61771972::speed_names;
+using code_61771972::parameter_names;
+using code_61771972::output_names;
+using code_61771972::event_names;
+using code_61771972::table;
+using code_61771972::prepare;
+using code_61771972::rhs;
+using code_61771972::mass_forcing;
+using code_61771972::energy;
+using code_61771972::outputs_at;
 }  // namespace bouncing_ball
 
 using namespace bouncing_ball;
 
-#ifndef ALEMBERT_bouncing_ball_f14169fb  // once in a unit, however many namespaces include this file
-#define ALEMBERT_bouncing_ball_f14169fb
+#ifndef ALEMBERT_bouncing_ball_61771972  // once in a unit, however many namespaces include this file
+#define ALEMBERT_bouncing_ball_61771972
 // What bouncing_ball.hpp declares: under names that begin with that of the scene and end with a fingerprint of this file and its
 // header, so that many systems can be in one program, and no header is linked with another file than its own.
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_prepare_f14169fb(double* par) {
-    bouncing_ball::code_f14169fb::table.prepare(par);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_prepare_61771972(double* par) {
+    bouncing_ball::code_61771972::table.prepare(par);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_rhs_f14169fb(double t, const double* state, const double* par, double* rate) {
-    bouncing_ball::code_f14169fb::table.rhs(t, state, par, rate);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_rhs_61771972(double t, const double* state, const double* par, double* rate) {
+    bouncing_ball::code_61771972::table.rhs(t, state, par, rate);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_mass_forcing_f14169fb(double t, const double* state, const double* par, double* mass, double* forcing) {
-    bouncing_ball::code_f14169fb::table.mass_forcing(t, state, par, mass, forcing);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_mass_forcing_61771972(double t, const double* state, const double* par, double* mass, double* forcing) {
+    bouncing_ball::code_61771972::table.mass_forcing(t, state, par, mass, forcing);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_energy_f14169fb(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
-    bouncing_ball::code_f14169fb::table.energy(t, state, rate, par, energy, jacobi);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_energy_61771972(double t, const double* state, const double* rate, const double* par, double* energy, double* jacobi) {
+    bouncing_ball::code_61771972::table.energy(t, state, rate, par, energy, jacobi);
 }
-extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_outputs_at_f14169fb(double t, const double* state, const double* rate, const double* par, double* out) {
-    bouncing_ball::code_f14169fb::table.outputs_at(t, state, rate, par, out);
+extern "C" __attribute__((weak, visibility("default"))) void bouncing_ball_outputs_at_61771972(double t, const double* state, const double* rate, const double* par, double* out) {
+    bouncing_ball::code_61771972::table.outputs_at(t, state, rate, par, out);
 }
-extern "C" __attribute__((weak, visibility("default"))) const void* bouncing_ball_tables_f14169fb() {
-    return &bouncing_ball::code_f14169fb::all;
+extern "C" __attribute__((weak, visibility("default"))) const void* bouncing_ball_tables_61771972() {
+    return &bouncing_ball::code_61771972::all;
 }
 #endif
 
 #ifndef ALEMBERT_NO_MODULE  // What is looked for in a module that is loaded while a program runs; once in a unit.
 #define ALEMBERT_NO_MODULE
-extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return bouncing_ball::code_f14169fb::all.solver; }
+extern "C" __attribute__((weak, visibility("default"))) const void* alembert_solver() { return bouncing_ball::code_61771972::all.solver; }
 #endif

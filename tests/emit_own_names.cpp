@@ -354,9 +354,15 @@ holonomic = "phi - theta"
 TEST_CASE("emit: contacts, dry friction and impulses are told to be left out, and nothing else is") {
     const auto told = [](const char* name) {
         const Emission e = emission(read_scene(test::source_path(fmt::format("scenes/{}.toml", name))));
-        return std::any_of(e.warnings.begin(), e.warnings.end(), [](const std::string& w) {
+        const bool is_warned = std::any_of(e.warnings.begin(), e.warnings.end(), [](const std::string& w) {
             return w.find("are left out of emitted functions") != std::string::npos;
         });
+        for (const CodeLanguage language : {CodeLanguage::cpp, CodeLanguage::c, CodeLanguage::javascript}) {
+            const Scene scene = read_scene(test::source_path(fmt::format("scenes/{}.toml", name)));
+            CHECK((emission(scene, {.language = language}).source.text.find("left out  ") != std::string::npos) ==
+                  is_warned);
+        }
+        return is_warned;
     };
     CHECK(told("friction/stick_slip"));
     CHECK(told("benchmark/bouncing_ball"));

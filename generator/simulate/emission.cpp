@@ -77,6 +77,15 @@ std::map<std::string, SceneNote> notes_of(const Emission& e) {
     return notes;
 }
 
+/// Between what is left out the equations hold.
+std::vector<std::string> left_out_of(const Mechanism& m) {
+    std::vector<std::string> names;
+    for (const Mechanism::Unilateral& contact : m.unilateral) names.push_back("the contact " + contact.gap.name);
+    for (const Mechanism::Friction& friction : m.frictions) names.push_back("sticking of " + friction.name);
+    if (m.has_kicks()) names.push_back("what events set and the impulses they give");
+    return names;
+}
+
 /// The state of the calling example: coordinates that follow from the constraints with 12 digits in the C++
 /// source, so that the same text is written everywhere, and with all in headers and data; none if the scene has no
 /// initial state, without which the equations hold too.
@@ -268,7 +277,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
                      .language = options.language,
                      .functions = e.functions,
                      .notes = notes_of(e),
-                     .command = command};
+                     .command = command,
+                     .left_out = left_out_of(e.mechanism)};
     add_example(text, e);
     e.source = emit(program, text);
     if (options.standalone) e.main = main_program(e, program, options.language);

@@ -58,6 +58,8 @@ struct EmitOptions {
     std::vector<double> initial = {};
     std::map<std::string, SceneNote> notes = {};  ///< by name, for the C++ header
     std::string command = {};                     ///< that makes the file, for its head; none if empty
+    /// What moves the scene and is not in the equations, for the head: "the contact floor".
+    std::vector<std::string> left_out = {};
 };
 
 /// Throws ModelError if the program has no accelerations (a singular system), for packs in C or JavaScript, and

@@ -106,28 +106,31 @@ private:
         std::string text = own_speeds ? "M(q) u' = f(q, u, t), q' = h(q, u, t)" : "M(q) q'' = f(q, q', t)";
         if (count(Group::gamma) > 0)
             text += own_speeds ? " + A^T lambda with A u' = gamma" : " + A^T lambda with A q'' = gamma";
+        lines_.push_back(text + ".");
         if (options_.language == CodeLanguage::javascript) {
-            lines_.insert(
-                lines_.end(),
-                {text + ".", "A module of JavaScript (ECMAScript 2015) that imports nothing and keeps no state.",
-                 "All arguments but t are arrays, at best of type Float64Array."});
+            lines_.insert(lines_.end(),
+                          {"A module of JavaScript (ECMAScript 2015) that imports nothing and keeps no state.",
+                           "All arguments but t are arrays, at best of type Float64Array."});
         } else if (options_.language == CodeLanguage::c) {
-            lines_.insert(lines_.end(), {text + ".",
-                                         "C99; nothing is allocated, no function keeps state, and the library of "
+            lines_.insert(lines_.end(), {"C99; nothing is allocated, no function keeps state, and the library of "
                                          "mathematics is all that is needed.",
                                          "With -DALEMBERT_REAL=float all numbers are floats."});
         } else if (is_header_) {
             lines_.insert(lines_.end(),
-                          {text + ".", fmt::format("Declares what {}.cpp has, for C++17 and later.", scene_),
+                          {fmt::format("Declares what {}.cpp has, for C++17 and later.", scene_),
                            "Any number of systems can be in one program, and no function keeps state."});
         } else {
-            lines_.insert(lines_.end(), {text + ".",
-                                         "This file includes nothing and allocates nothing. Real is "
+            lines_.insert(lines_.end(), {"This file includes nothing and allocates nothing. Real is "
                                          "double, or another type of numbers with the functions used."});
         }
     }
 
     void arguments() {
+        if (!options_.left_out.empty()) {
+            Items items = options_.left_out;
+            items.back() += "; between them this is the motion";
+            entry("left out", items);
+        }
         entry("t", {"the time [s]"});
         Items state = with_units(words_.q(), p_.coordinates);
         if (p_.speeds.empty()) {
