@@ -369,6 +369,38 @@ TEST_CASE("emit: contacts, dry friction and impulses are told to be left out, an
     CHECK_FALSE(told("textbook/double_pendulum"));
 }
 
+TEST_CASE("emit: a header of C names each place of state, parameters, inputs and outputs, in their order") {
+    const Scene scene = parse_scene(R"toml(
+[parameters]
+m = 2
+length = 1
+[coordinates]
+x = 0
+state = 1
+[inputs]
+names = { value = 0, given = "outside" }
+[energy]
+kinetic = "m*(x'^2 + state'^2)/2"
+[forces]
+x = "names - x/length"
+[outputs]
+double = "2*x"
+[[event]]
+name = "at"
+when = "x - 1"
+)toml",
+                                    "box.toml");
+    const std::string header = emission(scene, {.language = CodeLanguage::c}).source.header->text;
+    CAPTURE(header);
+    const auto has = [&](const std::string& text) { return header.find(text) != std::string::npos; };
+    CHECK(has("enum {\n    box_state_x,\n    box_state_state_,\n    box_state_x_dot,\n    box_state_state_dot,\n};"));
+    CHECK(has("enum {\n    box_par_m,\n    box_par_length,\n};"));
+    CHECK(has("enum {\n    box_in_names,\n};"));
+    CHECK(has("enum {\n    box_out_double_,\n};"));
+    CHECK(has("enum {\n    box_event_at,\n};"));
+    CHECK_FALSE(has("\n\n\n"));
+}
+
 TEST_CASE("emit: a main program ends at an event that passes and comes back within one step") {
     // Free flight is integrated exactly, by steps as long as the rows allow; above 1.2499 m there are 2 % of the
     // time.

@@ -128,12 +128,13 @@ public:
         const auto rendered = [&](std::string_view shape) {
             return mustache::mustache{std::string(shape)}.render(file_);
         };
+        if (options_.language == CodeLanguage::c) name_members(file_, p_, words_, options_);
         if (options_.language == CodeLanguage::c)
             return {.file = name + ".c",
                     .text = rendered(template_solver_c),
                     .operations = cost,
                     .formulation = p_.formulation,
-                    .header = SourceFile{name + ".h", rendered(template_solver_h)}};
+                    .header = SourceFile{name + ".h", without_gaps(rendered(template_solver_h))}};
         if (options_.language == CodeLanguage::javascript)
             return {.file = name + ".mjs",
                     .text = rendered(template_solver_js),

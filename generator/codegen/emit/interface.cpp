@@ -161,7 +161,7 @@ private:
                 add(words_.u()[k], in_brackets(per_second(p_.coordinates[k].unit)), "");
             else
                 add_own(words_.u()[k], p_.speeds[k]);
-        file_.set("state_members", members_of(members));
+        set_members("state_members", members);
         file_.set("has_initial", !initial.empty());
         file_.set("initial_time", shortest(options_.t));
     }
@@ -173,8 +173,8 @@ private:
         for (std::size_t k = 0; k < words_.par().size(); ++k)
             (words_.is_from_outside(k) ? inputs : members)
                 .push_back({words_.par()[k], p_.parameters[k].value, about(p_.parameters[k], true)});
-        file_.set("parameter_members", members_of(members));
-        file_.set("input_members", members_of(inputs));
+        set_members("parameter_members", members);
+        set_members("input_members", inputs);
         file_.set("has_no_par", members.empty() && inputs.empty() && words_.constants().empty());
         Names names = words_.names();
         file_.set("constants_member", names.fresh("prepared"));
@@ -185,7 +185,12 @@ private:
         Names names;
         std::vector<Member> members;
         for (const std::string& name : root_names(p_, groups)) members.push_back({names.fresh(name)});
+        set_members(key, members);
+    }
+
+    void set_members(const std::string& key, const std::vector<Member>& members) {
         file_.set(key, members_of(members));
+        file_.set("has_" + key, !members.empty());
     }
 
     mustache::data& file_;
@@ -201,6 +206,11 @@ std::string namespace_of(const Program& program) {
     // The runtime is in the namespace alembert, and a module exports alembert_solver and others.
     if (is_global_in_c(name) || name.starts_with("alembert")) name += '_';
     return name;
+}
+
+void name_members(mustache::data& file, const Program& program, const Vocabulary& words,
+                  const EmitOptions& options) {
+    Interface(file, program, words, options).structs();
 }
 
 void describe_interface(mustache::data& file, const Program& program, const Vocabulary& words,

@@ -26,4 +26,8 @@ std::string namespace_of(const Program& program);
 void describe_interface(kainjow::mustache::data& file, const Program& program, const Vocabulary& words,
                         const std::vector<FunctionTask>& functions, const EmitOptions& options);
 
+/// The members of state, parameters, inputs, outputs and events, in their order, for a header of C.
+void name_members(kainjow::mustache::data& file, const Program& program, const Vocabulary& words,
+                  const EmitOptions& options);
+
 }  // namespace alembert
