@@ -464,6 +464,79 @@ TEST_CASE("equilibrium: a pendulum hangs aslant on a carriage that is accelerate
     CHECK(are_close(values(even, "theta"), {0, pi}, 1e-12));
 }
 
+TEST_CASE("equilibrium: a mass on two springs stands where two inputs put it") {
+    const Json one = found(temporary("two_inputs.toml", R"toml(
+[parameters]
+m = 2
+k = 50
+g = 9.81
+[inputs]
+above = 0.4
+below = "0.1 + 0*t"
+[coordinates]
+y = 0
+[energy]
+kinetic = "m*y'^2/2"
+potential = "k*(y - above)^2/2 + k*(y - below)^2/2 + m*g*y - (y - above)^6"
+)toml"));
+    REQUIRE(!one["equilibria"].empty());
+    for (const Json& each : one["equilibria"]) CHECK(each["state"] == "proved");
+}
+
+TEST_CASE("equilibrium: inputs without amplitude are not in the solution, and it is in lowest terms") {
+    const Json half_car = found(temporary("half_car.toml", R"toml(
+gravity = [0, "-g"]
+[parameters]
+g = 9.81
+M = 1200
+J = 1800
+a = 1.2
+b = 1.5
+k1 = 40000
+k2 = 45000
+kt = 200000
+mu1 = 60
+A0 = 0
+[inputs]
+r1 = "A0*sin(3*t)"
+r2 = "A0*sin(3*t - 2)"
+[coordinates]
+z = 0
+th = 0
+z1 = 0
+[[frame]]
+name = "B"
+rotate = [["z", "th"]]
+[[body]]
+name = "body"
+mass = "M"
+inertia = "J"
+frame = "B"
+position = [0, "z"]
+[[particle]]
+name = "wheel"
+mass = "mu1"
+position = ["a", "z1"]
+[[spring]]
+along = "z + a*th - z1"
+stiffness = "k1"
+[[spring]]
+along = "z - b*th - r2"
+stiffness = "k2"
+[[spring]]
+along = "z1 - r1"
+stiffness = "kt"
+)toml"));
+    REQUIRE(half_car["equilibria"].size() == 1);
+    const Json& exact = half_car["equilibria"][0]["exact"];
+    CHECK(exact["z1"] == "-(M*b+(a+b)*mu1)*g/((a+b)*kt)");
+    for (const auto& [name, value] : exact.items()) {
+        CAPTURE(value.dump());
+        CHECK(value.dump().size() < 300);
+        CHECK(value.dump().find("A0") == std::string::npos);
+    }
+}
+
 TEST_CASE("equilibrium: scenes without equilibria are refused, each with its reason") {
     const auto says = [](const std::vector<std::string>& args, int code, const std::string& words) {
         const auto result = run(args);

@@ -393,7 +393,8 @@ when = "x - 1"
     const std::string header = emission(scene, {.language = CodeLanguage::c}).source.header->text;
     CAPTURE(header);
     const auto has = [&](const std::string& text) { return header.find(text) != std::string::npos; };
-    CHECK(has("enum {\n    box_state_x,\n    box_state_state_,\n    box_state_x_dot,\n    box_state_state_dot,\n};"));
+    CHECK(has(
+        "enum {\n    box_state_x,\n    box_state_state_,\n    box_state_x_dot,\n    box_state_state_dot,\n};"));
     CHECK(has("enum {\n    box_par_m,\n    box_par_length,\n};"));
     CHECK(has("enum {\n    box_in_names,\n};"));
     CHECK(has("enum {\n    box_out_double_,\n};"));

@@ -74,6 +74,12 @@ private:
         return f ? text(readable(*f)) : std::string();
     }
 
+    /// Of the value as it was found and of its lowest terms.
+    std::string shortest_text_of(const ex& e) const {
+        std::string plain = text_of(e), reduced = text_of(lowest_terms(e));
+        return reduced.empty() || reduced.size() >= plain.size() ? plain : reduced;
+    }
+
     /// All roots of all factors; nothing if one of them cannot be solved.
     std::optional<std::vector<RootChoice>> choices_of(const ex& equation, bool others) const {
         const TrigonometricProduct product = product_of(equation, m_);
@@ -234,7 +240,7 @@ private:
         for (const RootChoice& one : chosen) {
             has[one.coordinate] = true;
             root.value[one.coordinate] = one.value;
-            root.text[one.coordinate] = text_of(one.value);
+            root.text[one.coordinate] = shortest_text_of(one.value);
             if (root.text[one.coordinate].empty() || has_coordinate(one.value)) return false;
             for (const std::string& condition : one.where)
                 if (std::find(root.where.begin(), root.where.end(), condition) == root.where.end())
@@ -265,7 +271,8 @@ std::optional<std::vector<ClosedRoot>> closed_form(const Mechanism& m, const Equ
             still[m.q[i]] = 0;
     }
     for (const Mechanism::Input& input : m.inputs) {
-        still[input.derivative[0]] = input.value.subs(m.t == 0);
+        const ex value = m.z->expand(input.value);  // an input that changes with time has no amplitude here
+        still[input.derivative[0]] = value.has(m.t) && vanishes(value) ? ex(0) : value.subs(m.t == 0);
         still[input.derivative[1]] = still[input.derivative[2]] = 0;
     }
     std::vector<ex> equations;

@@ -90,7 +90,10 @@ StateKnown known_at(const Derived& d, const SteadyProblem& problem, const Start&
     };
     point.q = certain(at.q);
     point.u = certain(at.u);
-    point.inputs = certain(at.inputs);
+    const RealBallVector inputs = certain(at.inputs);
+    if (!residuals.inputs.empty()) point.inputs.resize(static_cast<std::size_t>(residuals.inputs.back()) + 1);
+    for (std::size_t k = 0; k < inputs.size(); ++k)
+        point.inputs[static_cast<std::size_t>(residuals.inputs[k])] = inputs[k];
     return disc_around(residuals, split, essential, {}, point, proved_radius);
 }
 
