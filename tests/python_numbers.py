@@ -534,6 +534,21 @@ class CasadiFunctions(unittest.TestCase):
         back, _, _ = self.evaluated("adj1_casadi_driven_rhs", t, y, p, rate, [0.3, 2])
         self.assertAlmostEqual(back[0, 0], 2 * by_t, places=9)
 
+    def test_derivatives_of_the_adjoint_are_those_that_hessians_need(self):
+        for name, t, accuracy in (("swing", 0.0, 1e-9), ("driven", 0.7, 2e-8)):
+            y, p, seed = np.array([0.4, 0.1]), np.array([2.0, 1.5, 9.81]), np.array([0.9, 1.7])
+            dt, dy, dp, dseed = 0.5, np.array([0.3, -0.7]), np.array([0.2, 0.1, -0.5]), np.array([0.4, -1.1])
+            none = np.zeros(2)
+            adjoint = lambda s: self.evaluated(f"adj1_casadi_{name}_rhs", t + s * dt, y + s * dy, p + s * dp, none,
+                                               seed + s * dseed)
+            h = 1e-3  # of order 4, as what they give by time is
+            expected = [(8 * (a - b) - (c - d)) / (12 * h)
+                        for a, b, c, d in zip(*(adjoint(s * h) for s in (1, -1, 2, -2)))]
+            found = self.evaluated(f"fwd1_adj1_casadi_{name}_rhs", t, y, p, none, seed, 0, none, np.zeros(3),
+                                   dt, dy, dp, none, dseed)
+            for one, other in zip(found, expected):
+                np.testing.assert_allclose(one, other, atol=accuracy)
+
 class NamesOfTheScene(unittest.TestCase):
     """A system's parameters are called as the scene calls them, not as the emitted C++ does."""
 

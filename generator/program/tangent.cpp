@@ -13,14 +13,23 @@ namespace alembert {
 
 namespace {
 
+/// The state, then the parameters.
+std::vector<Variable> variables_of(const Program& p) {
+    std::vector<Variable> all;
+    const auto add = [&](Variable::Kind kind, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) all.push_back({kind, static_cast<int>(i)});
+    };
+    add(Variable::Kind::coordinate, p.coordinates.size());
+    add(Variable::Kind::rate, speeds_of(p));
+    add(Variable::Kind::parameter, p.parameters.size());
+    return all;
+}
+
 class Tangent {
 public:
     explicit Tangent(const Program& program)
         : p_(program), n_(program.coordinates.size()), s_(speeds_of(program)) {
-        for (std::size_t i = 0; i < n_; ++i) add({Variable::Kind::coordinate, static_cast<int>(i)});
-        for (std::size_t i = 0; i < s_; ++i) add({Variable::Kind::rate, static_cast<int>(i)});
-        for (std::size_t i = 0; i < p_.parameters.size(); ++i)
-            add({Variable::Kind::parameter, static_cast<int>(i)});
+        for (const Variable& x : variables_of(program)) add(x);
     }
 
     /// δu' by way of K; nothing if the program has no mass matrix, or none that can be solved.
@@ -103,6 +112,14 @@ Program with_tangent(const Program& program) {
     if (implicit && by_system.cost(*implicit).total() < by_solution.cost(direct).total())
         return std::move(by_system).finished(*implicit);
     return std::move(by_solution).finished(direct);
+}
+
+std::vector<int> along_direction(Program& program, const std::vector<int>& nodes) {
+    std::map<int, int> direction;
+    int place = 0;
+    for (const Variable& x : variables_of(program))
+        direction.emplace(program.variable(x), program.variable({Variable::Kind::unknown, place++}));
+    return tangents(program, nodes, direction);
 }
 
 std::size_t direction_size(const Program& program) {

@@ -24,6 +24,10 @@ namespace alembert {
 /// differentiate.hpp.
 Program with_tangent(const Program& program);
 
+/// The derivatives of these nodes along the same direction, as further nodes of the program: of a Jacobian those
+/// that a Hessian times a vector needs.
+std::vector<int> along_direction(Program& program, const std::vector<int>& nodes);
+
 /// The number of the direction's entries.
 std::size_t direction_size(const Program& program);
 

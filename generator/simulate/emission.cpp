@@ -270,20 +270,22 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     }
     Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
     e.functions = named_functions(program, e, options);
+    const std::vector<int> second =
+        options.casadi && e.derivatives ? casadi_second_derivatives(program) : std::vector<int>();
     if (!options.name.empty()) program.name = options.name;
     if (options.standalone || options.casadi)  // these have parameters alone, and nobody gives inputs
         for (Quantity& p : program.parameters) p.from_outside = false;
     EmitOptions text{.batch = options.batch,
                      .language = options.language,
                      .functions = e.functions,
+                     .jacobian_tangent = second,
                      .notes = notes_of(e),
                      .command = command,
                      .left_out = left_out_of(e.mechanism)};
     add_example(text, e);
     e.source = emit(program, text);
     if (options.standalone) e.main = main_program(e, program, options.language);
-    if (options.casadi)
-        e.casadi = casadi_functions(program, {.language = options.language, .functions = e.functions});
+    if (options.casadi) e.casadi = casadi_functions(program, text);
     return e;
 }
 

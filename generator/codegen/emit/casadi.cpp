@@ -11,6 +11,7 @@
 #include "codegen/emit/solver_functions.hpp"
 #include "codegen/emit/templates.hpp"
 #include "codegen/emit/vocabulary.hpp"
+#include "program/tangent.hpp"
 
 namespace alembert {
 
@@ -77,6 +78,15 @@ bool depends_on_time(const Program& p) {
 
 }  // namespace
 
+std::vector<int> casadi_second_derivatives(Program& program) {
+    std::vector<int> entries;
+    for (const SparseTask& part : {jacobian(program), parameter_jacobian(program)})
+        for (const FunctionResult& result : part.task.results) entries.push_back(result.node);
+    const std::vector<int> nodes = along_direction(program, entries);
+    for (const int node : nodes) program.roots.push_back({Group::function, "D", node});
+    return nodes;
+}
+
 SourceFile casadi_functions(const Program& p, const EmitOptions& options) {
     if (options.language != CodeLanguage::c)
         throw ModelError(say("functions for CasADi are in C; expected --language c with --casadi"));
@@ -94,6 +104,14 @@ SourceFile casadi_functions(const Program& p, const EmitOptions& options) {
                                  together(point, known, with_prefix("fwd_", point)), with_prefix("fwd_", rate));
         functions << function_of("adj1_casadi_" + scene + "_rhs", "is_adjoint",
                                  together(point, known, with_prefix("adj_", rate)), with_prefix("adj_", point));
+    }
+    if (has_derivatives && !options.jacobian_tangent.empty()) {
+        const std::vector<CasadiMatrix> given =
+                                            together(point, with_prefix("out_", rate), with_prefix("adj_", rate)),
+                                        adjoint = with_prefix("adj_", point);
+        functions << function_of("fwd1_adj1_casadi_" + scene + "_rhs", "is_second",
+                                 together(given, with_prefix("out_", adjoint), with_prefix("fwd_", given)),
+                                 with_prefix("fwd_", adjoint));
     }
     for (const NamedFunction& function : options.functions) {
         const auto rows = static_cast<std::size_t>(function.rows),

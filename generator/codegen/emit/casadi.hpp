@@ -10,12 +10,17 @@
 /// casadi_crane_rhs maps (t, x, p) to the rate of the state x, casadi_crane_NAME the same and q'' to a function
 /// for robots. Matrices are dense, column by column. If the program has been differentiated, fwd1_casadi_crane_rhs
 /// and adj1_casadi_crane_rhs give directional derivatives and their adjoints: exact by state and parameters, by t
-/// a difference of order 4. Otherwise, and for robot functions, CasADi takes differences (its option `enable_fd`).
-/// The template is templates/casadi.c.mustache.
+/// a difference of order 4; fwd1_adj1_casadi_crane_rhs those of the adjoint, of which Hessians are made.
+/// Otherwise, and for robot functions, CasADi takes differences (its option `enable_fd`). The template is
+/// templates/casadi.c.mustache.
 
 #include "codegen/emit/emit.hpp"
 
 namespace alembert {
+
+/// The derivatives of both Jacobians along a direction, as further nodes of the program, for
+/// EmitOptions::jacobian_tangent.
+std::vector<int> casadi_second_derivatives(Program& program);
 
 /// Throws ModelError for C++.
 SourceFile casadi_functions(const Program& program, const EmitOptions& options);

@@ -231,6 +231,7 @@ private:
         const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_);
         for (const SparseTask* part : {&by_state, &by_parameters}) add(part->task);
         add(tangent(p_));
+        add(jacobian_tangent(options_.jacobian_tangent));
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
         list("rows", wrapped_list(texts(by_state.rows)));

@@ -46,6 +46,9 @@ struct EmitOptions {
     bool batch = false;  ///< whether to write alembert_pack too; in C++ alone
     CodeLanguage language = CodeLanguage::cpp;
     std::vector<NamedFunction> functions = {};  ///< functions of their own, whose nodes are in the program
+    /// The derivatives of the Jacobian's entries, then of those by parameters, along a direction (tangent.hpp),
+    /// for CasADi; none if empty.
+    std::vector<int> jacobian_tangent = {};
     std::size_t longest_function =
         processor::longest_function;  ///< in statements; a longer function is written in parts (parts.hpp)
     /// Whether long statements that rates and multipliers need are written once, for both, which a compiler reads

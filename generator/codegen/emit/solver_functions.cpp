@@ -287,6 +287,18 @@ SparseTask parameter_jacobian(const Program& p) {
                   p, {{Group::parameter_jacobian, 0}}, p.parameters.size());
 }
 
+FunctionTask jacobian_tangent(const std::vector<int>& nodes) {
+    FunctionTask task{
+        .name = "jacobian_tangent",
+        .about = "The change of the entries of jacobian, then of parameter_jacobian, along a direction.",
+        .arguments = {t, state, par, {"const Real*", "direction"}, to("change")},
+        .goals = {},
+        .results = {}};
+    for (std::size_t k = 0; k < nodes.size(); ++k) task.results.push_back({"change", {k}, nodes[k]});
+    task.goals = unnamed("Derivatives", task.results);
+    return task;
+}
+
 FunctionTask tangent(const Program& p) {
     FunctionTask task{
         .name = "tangent",

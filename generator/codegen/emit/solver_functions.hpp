@@ -40,6 +40,9 @@ struct SparseTask {
 SparseTask jacobian(const Program& program);
 SparseTask parameter_jacobian(const Program& program);
 
+/// The change of both Jacobians' entries along a direction, which these nodes are.
+FunctionTask jacobian_tangent(const std::vector<int>& nodes);
+
 /// The derivatives along a direction; without results unless the program has them (program/tangent.hpp).
 FunctionTask tangent(const Program& program);
 
