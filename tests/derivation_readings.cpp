@@ -703,6 +703,22 @@ TEST_CASE(
     CHECK(statuses(pendulum, "In equilibrium\n\n$$7 g\\sin\\theta = 0$$") == "R");
 }
 
+TEST_CASE("readings: L is the Lagrangian where the scene's length of that name is not used") {
+    std::string table = test::textbook_text("central_force");
+    table = table.substr(0, table.find("k = {")) + "L = 2\n" + table.substr(table.find("k = {"));
+    const std::string begun =
+        "$$L = \\frac{m}{2}(\\dot r^2 + r^2\\dot\\phi^2) + \\frac{k}{r}$$ $$p = \\frac{\\partial "
+        "L}{\\partial\\dot\\phi}$$ $$R = L - p\\dot\\phi$$";
+    CHECK(statuses(table, begun + "$$\\frac{\\partial R}{\\partial\\dot r} = m\\dot r$$").back() == 'R');
+    CHECK(statuses(table, begun + "$$R = \\frac{m}{2}\\dot r^2 - \\frac{p^2}{2mr^2} + \\frac{k}{r}$$").back() ==
+          'R');
+    CHECK(statuses(table,
+                   "$$L - p_\\phi\\dot\\phi = \\frac{m}{2}\\dot r^2 + \\frac{p_\\phi^2}{2mr^2} + "
+                   "\\frac{k}{r}$$ $$L = \\frac{m}{2}(\\dot r^2 + r^2\\dot\\phi^2) + \\frac{k}{r}$$") == "MR");
+    // A length where it is used as one.
+    CHECK(statuses(table, "$$\\frac{L m \\dot r^2}{L} = m\\dot r^2$$") == "R");
+}
+
 TEST_CASE("readings: a function of a coordinate with a momentum in it is differentiated with the momentum held") {
     const std::string orbit = test::textbook_text("central_force"),
                       momentum = "The momentum $$G = mr^2\\dot\\phi = \\mathrm{const}$$";

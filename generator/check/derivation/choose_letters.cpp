@@ -130,6 +130,61 @@ std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) 
     return result;
 }
 
+/// How often a letter stands as an energy does (alone on a side, as a term of a sum, in ∂L/∂q'), and in what else.
+struct Uses {
+    int as_quantity = 0, otherwise = 0;
+    bool is_energy = false;  ///< whether it is differentiated, or equal to what has rates
+};
+
+void count_uses(const Math& math, const Letter& letter, bool is_term, Uses& uses) {
+    using Kind = Math::Kind;
+    if (math.kind == Kind::letter) {
+        if (math.letter == letter) ++(is_term && math.dots == 0 ? uses.as_quantity : uses.otherwise);
+        return;
+    }
+    const bool is_sum = math.kind == Kind::sum || math.kind == Kind::negate;
+    for (std::size_t k = 0; k < math.args.size(); ++k)
+        count_uses(*math.args[k], letter, (is_sum && is_term) || (math.kind == Kind::partial && k == 0), uses);
+}
+
+Uses uses_of(const Letter& letter, const Written& written) {
+    Uses uses;
+    std::set<Letter> differentiated;
+    for (const WrittenStatement& statement : written.statements)
+        for (std::size_t k = 0; k < statement.sides.size(); ++k) {
+            const Math& side = *statement.sides[k];
+            collect_differentiated(side, differentiated);
+            count_uses(side, letter, true, uses);
+            const bool is_alone = side.kind == Math::Kind::letter && side.letter == letter;
+            if (!is_alone || k + 1 >= statement.sides.size()) continue;
+            std::map<Letter, int> other;
+            collect_letters(*statement.sides[k + 1], other);
+            uses.is_energy = uses.is_energy || std::any_of(other.begin(), other.end(),
+                                                           [](const auto& item) { return item.second > 0; });
+        }
+    uses.is_energy = uses.is_energy || differentiated.contains(letter);
+    return uses;
+}
+
+/// Letters of the scene that the author writes for energies alone: L for the Lagrangian where the scene's L is a
+/// length that he does not use.
+std::map<Letter, std::string> energies_in_place_of_names(const Written& written, const Letters& letters) {
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written.statements)
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    std::map<Letter, std::string> result;
+    for (const auto& [letter, dots] : all) {
+        const auto quantity = quantity_of(letter);
+        const auto name = letters.name_of(letter);
+        if (!quantity || !name || !letters.is_of_scene(*name) || *quantity == MechanicalQuantity::momentum ||
+            *quantity == MechanicalQuantity::force)
+            continue;
+        const Uses uses = uses_of(letter, written);
+        if (uses.is_energy && uses.otherwise == 0) result.emplace(letter, letters.name_of(*quantity));
+    }
+    return result;
+}
+
 double score_of(DerivedSystem& system, const Written& written, const Letters& letters) {
     Marker marker(system, written, letters);
     marker.run();
@@ -216,6 +271,8 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
         result.told[text] = name;
     }
     result.letters = with_authors_letters(std::move(result.letters), written);
+    for (const auto& [letter, name] : energies_in_place_of_names(written, result.letters))
+        if (!result.given.contains(letter)) result.letters.bind(letter, name);
     for (const Letter& letter : perhaps_forces(written, result.letters)) {
         Letters otherwise = result.letters;
         otherwise.leave_open(letter);

@@ -302,6 +302,7 @@ private:
     std::optional<int> order_of(const std::string& expression);
     int order_of(const LineClaim& claim);
     bool has_quantity(const LineNotes& notes) const;
+    bool has_free_constant(const LineNotes& notes) const;
     bool has_one_reading(std::size_t k) const;
     bool holds_parameter(const LineClaim& claim);
     void withhold_unexplained(std::size_t k);

@@ -104,11 +104,12 @@ void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::s
         if (rest.likely && is_plausible_at_rest(*rest.likely, claim, order_there, letters_.coordinates()))
             return adopt(line, notes, std::move(rest));
     }
-    if (order == 1 && claim.constants.empty() && !has_quantity(notes)) seek_in_integral(line, notes, known);
+    if (order == 1 && claim.constants.empty() && (has_free_constant(notes) || !has_quantity(notes)))
+        seek_in_integral(line, notes, known);
 }
 
-/// The slip of θ'² = g (1 − cos θ)/R, which motions that start at rest keep: the change after which both sides
-/// differ by a constant.
+/// The slip of θ'² = g (1 − cos θ)/R, which motions that start at rest keep, or of L − p φ': the change after
+/// which both sides differ by a constant.
 void Marker::seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known) {
     const std::string constant = letters_.free_name("const"), added = " + " + constant;
     LineClaim kept = notes.claim;
@@ -146,6 +147,14 @@ bool Marker::has_quantity(const LineNotes& notes) const {
     };
     return std::any_of(notes.left.names.begin(), notes.left.names.end(), is_one) ||
            std::any_of(notes.right.names.begin(), notes.right.names.end(), is_one);
+}
+
+/// V and L, in which a constant says nothing.
+bool Marker::has_free_constant(const LineNotes& notes) const {
+    return std::any_of(notes.left.names.begin(), notes.left.names.end(), [this](const std::string& name) {
+        return name == letters_.name_of(MechanicalQuantity::potential) ||
+               name == letters_.name_of(MechanicalQuantity::lagrangian);
+    });
 }
 
 /// Whether it can be read in one way only: stated, and not mentioned, in the scene's letters and those of energies
