@@ -178,4 +178,30 @@ TEST_CASE("check: a slip in a textbook equation is named, and the correct equati
     CHECK(count >= 80);
 }
 
+TEST_CASE("check: the power of a tangent that stands in a term is a slip that is named") {
+    const Scene cone = parse_scene(R"toml(
+[parameters]
+m = 0.1
+g = 9.81
+alpha = 0.5
+[coordinates]
+z = 0.4
+phi = { initial = 0, rate = 8 }
+[energy]
+kinetic = "m*(1 + tan(alpha)^2)*z'^2/2 + m*z^2*tan(alpha)^2*phi'^2/2"
+potential = "m*g*z"
+)toml",
+                                   "cone.toml");
+    for (const auto& [claim, words] :
+         {std::pair("p_phi = m*z^2*tan(alpha)*phi'", "a missing factor tan(alpha) on m*z^2*tan(alpha)*phi'"),
+          std::pair("p_z = m*(1 + tan(alpha))*z'", "a missing factor tan(alpha) on tan(alpha)")}) {
+        CAPTURE(claim);
+        const CheckedClaim wrong = checked(with_claims(cone, claim, "claims.txt")).claims[0];
+        REQUIRE(wrong.verdict == Verdict::refuted);
+        REQUIRE(wrong.likely);
+        CHECK(words_of(*wrong.likely) == words);
+        CHECK(checked(with_claims(cone, wrong.likely->repair, "claims.txt")).claims[0].verdict == Verdict::proved);
+    }
+}
+
 }  // namespace check_named_slips

@@ -326,6 +326,11 @@ void Edits::factors(const Summand& s) {
             for (const int exponent : {1, 2, -1})
                 times(base, exponent, "factor", of_factor + (exponent == 2 ? 0.15 : 0));
         }
+    for (const TreePtr& angle : words_.angles) {  // tan² α for tan α
+        const TreePtr base = made(Kind::call, {angle}, "tan");
+        if (own.exponent_of(base) == 0) continue;
+        for (const int exponent : {1, -1}) times(base, exponent, "factor", of_factor + 0.05);
+    }
     for (const std::string& name : words_.coordinates) {
         for (const int exponent : {1, -1}) times(name_tree(name), exponent, "factor", of_factor);
         times(name_tree(name, 1), 1, "factor", of_factor + 0.1);
