@@ -703,6 +703,15 @@ TEST_CASE(
     CHECK(statuses(pendulum, "In equilibrium\n\n$$7 g\\sin\\theta = 0$$") == "R");
 }
 
+TEST_CASE("readings: a long dash between terms is a minus, and one before words is none") {
+    const std::string rest = " \u2014 m g l cos(theta)";
+    CHECK(statuses(pendulum, "On integration\n\n    1/2 m l^2 theta'^2" + rest + " = E\n") == "R");
+    CHECK(statuses(pendulum, "    L = 1/2 m l^2 theta'^2 \u2014 m g l + m g l cos(theta)\n") == "R");
+    CHECK(statuses(pendulum, "    l theta'' = \u2014 g sin(theta)\n") == "R");
+    CHECK(statuses(pendulum, "    T = 1/2 m l^2 theta'^2 \u2014 as the bob moves on a circle\n") == "R");
+    CHECK(statuses(pendulum, "    T = 1/2 m l^2 theta'^2 \u2014 l theta'' = -g sin(theta)\n") == "RR");
+}
+
 TEST_CASE("readings: L is the Lagrangian where the scene's length of that name is not used") {
     std::string table = test::textbook_text("central_force");
     table = table.substr(0, table.find("k = {")) + "L = 2\n" + table.substr(table.find("k = {"));

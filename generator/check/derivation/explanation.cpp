@@ -2,6 +2,8 @@
 #include "check/derivation/explanation.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "check/claim_tree.hpp"
 
@@ -41,6 +43,29 @@ bool holds_one_of(const std::vector<std::string>& names, const Tree& tree) {
                                  [&](const TreePtr& arg) { return holds_one_of(names, *arg); });
 }
 
+/// Whether a term stands in a sum beside what cancels it: 1 − cos θ + cos θ.
+bool cancels_itself(const Tree& tree) {
+    if (tree.kind == Tree::Kind::sum) {
+        std::set<std::string> above, below;
+        for (const TreePtr& term : tree.args) {
+            const auto [plain, is_negative] = without_sign(term);
+            (is_negative ? below : above).insert(plain_text_of(*plain));
+        }
+        if (std::any_of(above.begin(), above.end(), [&](const std::string& term) { return below.contains(term); }))
+            return true;
+    }
+    return std::any_of(tree.args.begin(), tree.args.end(),
+                       [](const TreePtr& part) { return cancels_itself(*part); });
+}
+
+bool cancels_itself(const std::string& equation) {
+    const std::size_t middle = equation.find('=');
+    if (middle == std::string::npos) return false;
+    for (const std::string& side : {equation.substr(0, middle), equation.substr(middle + 1)})
+        if (const TreePtr tree = tree_of(side); tree && cancels_itself(*tree)) return true;
+    return false;
+}
+
 }  // namespace
 
 bool is_plausible(const Slip& slip, const LineClaim& claim, const OrderOf& order) {
@@ -52,9 +77,10 @@ bool is_plausible(const Slip& slip, const LineClaim& claim, const OrderOf& order
     }
     const TreePtr term = tree_of(slip.term);
     if (slip.kind == "missing_term")
-        return !term || (is_one_thought(*without_sign(term).first) &&
-                         order(slip.term).value_or(0) <=
-                             std::max(order(claim.lhs).value_or(2), order(claim.rhs).value_or(2)));
+        return !cancels_itself(slip.repair) &&
+               (!term || (is_one_thought(*without_sign(term).first) &&
+                          order(slip.term).value_or(0) <=
+                              std::max(order(claim.lhs).value_or(2), order(claim.rhs).value_or(2))));
     // The derivative of a function of a coordinate, V' of V(θ), has no dot to lose.
     if (slip.kind == "lost_dot") return !term || term->kind != Tree::Kind::derivative;
     return true;

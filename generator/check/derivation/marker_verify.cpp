@@ -186,14 +186,20 @@ void Marker::withhold_unexplained(std::size_t k) {
     }
     const bool is_refuted = line.status == LineStatus::mistake && line.checked.verdict == Verdict::refuted;
     if (!is_refuted || notes_[k].is_sure) return;
+    const bool is_rest_of_line =
+        k > 0 && lines[k - 1].status == LineStatus::not_understood && lines[k - 1].line == line.line;
+    const auto withhold = [&](std::string reason) {
+        line.status = LineStatus::undecided;
+        line.reason = std::move(reason);
+        line.checked = {};
+        line.term.clear();
+        line.right.clear();
+    };
+    if (is_rest_of_line) return withhold(say("what stands before it in this line was not understood"));
     if (is_plausible(line.checked.likely, notes_[k].claim)) return;
     const bool is_of_units = line.checked.likely && line.checked.likely->kind == "wrong_unit";
     if (has_one_reading(k) && !is_of_units) return;
-    line.status = LineStatus::undecided;
-    line.reason = say("as it was read it fails, and no small change makes it right: it may be meant otherwise");
-    line.checked = {};
-    line.term.clear();
-    line.right.clear();
+    withhold(say("as it was read it fails, and no small change makes it right: it may be meant otherwise"));
 }
 
 bool Marker::speaks_of_quantity(const LineNotes& notes) const {

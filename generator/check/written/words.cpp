@@ -72,7 +72,7 @@ bool speaks_of_other_system(std::string_view words) {
     if (has_phrase(sentence, "若*|如果*|假如*") && has_phrase(sentence, "改为*|换成*|换为*")) return true;
     return has_phrase(
         sentence,
-        "were replaced|würde man|"
+        "were replaced|than that of|longer than for|shorter than for|würde man|"
         "si l'on remplace|si se reemplaza|se si sostituisce|"
         "analogous|analogue|kepler problem|kepler-problem|keplerproblem|problème de kepler|problema de "
         "kepler|开普勒问题*|in contrast to|unlike|im gegensatz zu*|contrairement à|a diferencia de|"
