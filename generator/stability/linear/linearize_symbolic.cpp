@@ -38,8 +38,10 @@ GiNaC::exmap state_at(const Mechanism& m, const std::vector<ex>& q0, const std::
     return there;
 }
 
-/// Adds the values of inputs that do not change with time.
+/// Adds the values of inputs that do not change with time, and of those from outside, which keep theirs.
 void know_inputs(GiNaC::exmap& there, const Mechanism& m) {
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.from_outside) there[p.symbol] = p.value;
     for (std::size_t round = 0; round < m.inputs.size(); ++round)  // they may stand in each other, in any order
         for (const Mechanism::Input& input : m.inputs) {
             const ex value = m.z->expand(input.value).subs(there);
