@@ -440,7 +440,8 @@ theta = "-P*theta - I*e - D*theta' + u"
     }
 }
 
-// A cart with two poles has too many letters for its conditions; its coefficients, as a [polynomial], have the same roots.
+// A cart with two poles has too many letters for its conditions; its coefficients, as a [polynomial], have the
+// same roots.
 TEST_CASE("states: where conditions are long in the parameters they are given in the polynomial's coefficients") {
     const std::string gains =
         "M = 2\nm = 0.5\nl = 0.8\nr = 0.6\nn = 0.4\ng = 9.81\nkp = 100\nkd = 20\nk1 = 4\nk2 = 8\nc = 3\n";
@@ -476,9 +477,9 @@ phi = "-c*phi'"
         REQUIRE(one.starts_with(begin));
         list += fmt::format("\"{}\", ", one.substr(begin.size()));
     }
-    const Json same = json_of({"stability", temporary("polynomial.toml", "[parameters]\n" + gains +
-                                                                             "[polynomial]\ncoefficients = [" + list +
-                                                                             "]\n")});
+    const Json same =
+        json_of({"stability", temporary("polynomial.toml", "[parameters]\n" + gains +
+                                                               "[polynomial]\ncoefficients = [" + list + "]\n")});
     REQUIRE(same["eigenvalues"].size() == found["eigenvalues"].size());
     for (std::size_t k = 0; k < same["eigenvalues"].size(); ++k)
         for (const int part : {0, 1})

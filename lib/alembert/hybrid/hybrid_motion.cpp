@@ -230,8 +230,10 @@ private:
     std::vector<LastZero> turned(const Halt& halt, const std::vector<double>& before,
                                  const std::vector<double>& after) {
         std::vector<LastZero> result;
-        const auto n = static_cast<std::ptrdiff_t>(contacts_.kicks.coordinates);
-        if (before == after || !std::equal(before.begin(), before.begin() + 2 * n, after.begin())) return result;
+        const auto n = static_cast<std::ptrdiff_t>(acceleration_.size());
+        if (!contacts_.kicks.passed || before == after ||
+            !std::equal(before.begin(), before.begin() + 2 * n, after.begin()))
+            return result;
         const std::vector<PassedZero> zeros =
             contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration_);
         for (const LastZero& zero : halt.passed) {
