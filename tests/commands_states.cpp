@@ -405,6 +405,93 @@ TEST_CASE("states: a slip in a claim or in a derivation that holds them is found
     CHECK(lines["lines"][1]["status"] == "right");
 }
 
+// s³ + (D/m l²) s² + (P − m g l)/m l² s + I/m l²: Hurwitz's conditions. The gains need not be those of a stable
+// motion, and an input from outside, which keeps its value, changes nothing.
+TEST_CASE("states: a PID controller of an inverted pendulum has the conditions in its gains by Hurwitz") {
+    const auto scene = [](const char* const D, const char* const more) {
+        return temporary("pid.toml", fmt::format(R"toml(
+[parameters]
+m = 1
+g = 9.81
+l = 1
+P = 30
+I = 10
+D = {}
+{}
+[coordinates]
+theta = 0
+[states]
+e = {{ rate = "theta" }}
+[energy]
+kinetic = "m*l^2*theta'^2/2"
+potential = "m*g*l*cos(theta)"
+[forces]
+theta = "-P*theta - I*e - D*theta' + u"
+)toml",
+                                                 D, more));
+    };
+    const Json conditions = Json::array({"m*I > 0", "m*D > 0", "P*D - m*g*l*D - m*I*l^2 > 0"});
+    for (const char* const u : {"[inputs]\nu = { value = 0, given = \"outside\" }", "[inputs]\nu = \"2*w\"\nw = 0",
+                                "[definitions]\nu = \"0\""}) {
+        CHECK(json_of({"stability", scene("5", u)})["conditions"] == conditions);
+        const Json unstable = json_of({"stability", scene("0.1", u)}, {}, 1);
+        CHECK(unstable["verdict"] == "unstable");
+        CHECK(unstable["conditions"] == conditions);
+    }
+}
+
+// A cart with two poles has too many letters for its conditions; its coefficients, as a [polynomial], have the
+// same roots.
+TEST_CASE("states: where conditions are long in the parameters they are given in the polynomial's coefficients") {
+    const std::string gains =
+        "M = 2\nm = 0.5\nl = 0.8\nr = 0.6\nn = 0.4\ng = 9.81\nkp = 100\nkd = 20\nk1 = 4\nk2 = 8\nc = 3\n";
+    const Json found =
+        json_of({"stability", temporary("pid.toml", "gravity = [0, \"-g\"]\n[parameters]\n" + gains + R"toml(
+[coordinates]
+x = 0
+theta = 0
+phi = 0
+[[particle]]
+name = "cart"
+mass = "M"
+position = ["x", 0]
+[[particle]]
+name = "bob"
+mass = "m"
+from = "cart"
+position = ["l*sin(theta)", "l*cos(theta)"]
+[[particle]]
+name = "load"
+mass = "n"
+from = "cart"
+position = ["r*sin(phi)", "-r*cos(phi)"]
+[forces]
+x = "kp*theta + kd*theta' + k1*x + k2*x'"
+phi = "-c*phi'"
+)toml")});
+    const std::size_t count = found["coefficients"].size();
+    REQUIRE(count == 7);
+    std::string list;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::string one = found["coefficients"][k].get<std::string>(), begin = fmt::format("a{} = ", k);
+        REQUIRE(one.starts_with(begin));
+        list += fmt::format("\"{}\", ", one.substr(begin.size()));
+    }
+    const Json same =
+        json_of({"stability", temporary("polynomial.toml", "[parameters]\n" + gains +
+                                                               "[polynomial]\ncoefficients = [" + list + "]\n")});
+    REQUIRE(same["eigenvalues"].size() == found["eigenvalues"].size());
+    for (std::size_t k = 0; k < same["eigenvalues"].size(); ++k)
+        for (const int part : {0, 1})
+            CHECK(std::abs(same["eigenvalues"][k][part].get<double>() -
+                           found["eigenvalues"][k][part].get<double>()) < 1e-9);
+    // Liénard's and Chipart's criterion, with Δ₃ by its determinant; then comes Δ₅.
+    REQUIRE(found["conditions"].size() == 6);
+    for (const char* const one :
+         {"a6 > 0", "a4 > 0", "a2 > 0", "a1 > 0", "a0*a1*a5 - a0*a3^2 - a1^2*a4 + a1*a2*a3 > 0"})
+        CHECK(std::find(found["conditions"].begin(), found["conditions"].end(), one) != found["conditions"].end());
+}
+
 TEST_CASE(
     "states: --at gives a state its start in every verb that integrates, and refuses what the scene has not") {
     const std::string scene = temporary("relaxes.toml", R"toml(
@@ -425,7 +512,9 @@ duration = 2
     REQUIRE(told.exit == 0);
     CHECK(std::abs(Json::parse(told.out)["final"]["states"]["f"].get<double>() - 3 * std::exp(-2)) < 1e-10);
     CHECK(end({"--at", "foo=1"}).exit == 3);
-    CHECK(run({"equilibrium", temporary("counter.toml", "[states]\nn = {}\n")}).exit <= 2);
+    const Run held = run({"equilibrium", temporary("counter.toml", "[states]\nn = { initial = 3 }\n")});
+    CHECK(held.exit == 0);
+    CHECK(held.out.find("n = 3") != std::string::npos);
 }
 
 }  // namespace commands_states

@@ -128,12 +128,10 @@ double Recurrences::products() const {
     return count;
 }
 
-std::optional<std::string> obstacle_to_recurrences(const Program& program, bool with_work) {
-    if (program.singular)
-        return say("the mass matrix is singular at every state: there are no accelerations to emit");
-    std::vector<int> roots = program.right_hand_side();
-    const std::vector<int> power = with_work ? program.nodes_of(Group::power) : std::vector<int>();
-    roots.insert(roots.end(), power.begin(), power.end());
+namespace {
+
+/// What of these nodes has no power series.
+std::optional<std::string> obstacle_in(const Program& program, const std::vector<int>& roots) {
     for (const int id : program.needed(roots)) {
         const Node& node = program[id];
         if (node.op == Op::unspecified && program.table_of(node) == nullptr) program.refuse_unspecified(node);
@@ -153,11 +151,33 @@ std::optional<std::string> obstacle_to_recurrences(const Program& program, bool 
     return std::nullopt;
 }
 
+/// The parts of M u' = f + A^T λ, A u' = γ, of which accelerations may hold fewer functions: f = 0 leaves none.
+std::vector<int> implicit_roots(const Program& program) {
+    std::vector<int> result;
+    for (const Group group : {Group::mass, Group::forcing, Group::row, Group::speed_row, Group::gamma}) {
+        const std::vector<int> nodes = program.nodes_of(group);
+        result.insert(result.end(), nodes.begin(), nodes.end());
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<std::string> obstacle_to_recurrences(const Program& program, bool with_work) {
+    if (program.singular)
+        return say("the mass matrix is singular at every state: there are no accelerations to emit");
+    std::vector<int> roots = program.right_hand_side();
+    const std::vector<int> power = with_work ? program.nodes_of(Group::power) : std::vector<int>();
+    roots.insert(roots.end(), power.begin(), power.end());
+    return obstacle_in(program, roots);
+}
+
 Recurrences recurrences(const Program& program, bool with_work) {
     if (const auto obstacle = obstacle_to_recurrences(program, with_work)) throw ModelError(*obstacle);
     Recurrences direct = SeriesBuilding(program, with_work).direct();
     if (program.nodes_of(Group::mass).empty() || program.nodes_of(Group::forcing).empty()) return direct;
     if (program.friction_on_multipliers) return direct;  // M u' = f lacks it
+    if (obstacle_in(program, implicit_roots(program))) return direct;
     Recurrences implicit = SeriesBuilding(program, with_work).implicit();
     return implicit.products() < direct.products() ? implicit : direct;
 }

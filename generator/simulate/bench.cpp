@@ -26,6 +26,7 @@
 #include "simulate/loaded_modes.hpp"
 #include "simulate/method.hpp"
 #include "simulate/peers.hpp"
+#include "simulate/run_contacts.hpp"
 #include "simulate/separable.hpp"
 #include "simulate/solver_code.hpp"
 #include "simulate/step_times.hpp"

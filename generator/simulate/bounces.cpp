@@ -9,6 +9,7 @@
 #include "alembert/base/tolerances.hpp"
 #include "base/language/say.hpp"
 #include "simulate/loaded_modes.hpp"
+#include "simulate/run_contacts.hpp"
 
 namespace alembert {
 

@@ -258,7 +258,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     if (e.mechanism.has_modes())
         e.warn("left_out",
-               say("warning: contacts, dry friction that sticks and impulses of events, which change the "
+               say("warning: contacts, dry friction that sticks and what events set or give, which change the "
                    "motion, are left out of emitted functions, which hold between them; 'alembert "
                    "simulate' and the library follow them\n"));
     e.choice = lowered(e, options.fold);

@@ -6,8 +6,8 @@
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/taylor.hpp"
-#include "analysis/state/inertia_check.hpp"
 #include "base/language/say.hpp"
+#include "model/multipliers.hpp"
 #include "simulate/consistent_mode.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/friction_of_multipliers.hpp"
@@ -39,126 +39,17 @@ std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t,
         t, f.name, f.multiplier->get_name(), numbers);
 }
 
-}  // namespace
-
-bool has_jumps(const Mechanism& m) {
-    return !m.unilateral.empty() || m.has_kicks() || m.has_counts();
-}
-
-namespace {
-
-/// Whether the value of each event changes only where events set states: states without a rate are all that
-/// moves it.
-std::vector<bool> of_modes(const Mechanism& m) {
-    std::vector<GiNaC::symbol> moving{m.t};
-    for (const auto* list : {&m.q, &m.qdot, &m.qddot}) moving.insert(moving.end(), list->begin(), list->end());
-    for (const Mechanism::Input& input : m.inputs)
-        moving.insert(moving.end(), input.derivative.begin(), input.derivative.end());
-    for (const Mechanism::State& z : m.states)
-        if (!z.rate.is_zero()) moving.insert(moving.end(), z.derivative.begin(), z.derivative.end());
-    for (const auto* list : {&m.constraints, &m.redundant})
-        for (const Mechanism::Constraint& c : *list) moving.push_back(c.multiplier);
-    for (const Mechanism::Unilateral& u : m.unilateral) moving.push_back(u.gap.multiplier);
-    std::vector<bool> result;
-    for (const Mechanism::Definition& event : m.events) result.push_back(!m.z->depends(event.value, moving));
+/// The events whose values hold multipliers.
+std::vector<int> events_of_forces(const Mechanism& m) {
+    const std::vector<GiNaC::symbol> multipliers = multipliers_of(m);
+    std::vector<int> result;
+    const std::size_t own = m.events.size() - m.unilateral.size();  // then come contacts, which end a phase
+    for (std::size_t k = 0; k < own && !multipliers.empty(); ++k)
+        if (m.z->depends(m.events[k].value, multipliers)) result.push_back(static_cast<int>(k));
     return result;
 }
 
-/// Why the states that events have set cannot be, with the coordinates where they are: a constraint breaks, or a
-/// gap is negative.
-std::optional<std::string> broken_by_set(const Mechanism& m, const ContactView& view, const State<double>& before,
-                                         const State<double>& after) {
-    constexpr double negligible = 1e-9;
-    const Situation was = view.at(before), is = view.at(after);
-    const auto off = [&](const Situation::Rows& rows, Eigen::Index k) {
-        double size = 0;
-        for (Eigen::Index i = 0; i < rows.rows.cols(); ++i)
-            size += std::abs(rows.rows(k, i)) * std::max(1.0, std::abs(after.q[static_cast<std::size_t>(i)]));
-        return negligible * size;
-    };
-    for (Eigen::Index k = 0; k < is.bilateral.value.size(); ++k)
-        if (const double value = is.bilateral.value[k];
-            std::abs(value) > off(is.bilateral, k) + 10 * std::abs(was.bilateral.value[k]))
-            return say(
-                "what events set at t = {:.6g} puts constraint '{}' off by {:.6g}, and coordinates do not jump; "
-                "set "
-                "values with which it holds, or give the state a rate",
-                after.t, m.constraints[static_cast<std::size_t>(k)].name, value);
-    for (Eigen::Index k = 0; k < is.contacts.value.size(); ++k)
-        if (const double value = is.contacts.value[k];
-            - value > off(is.contacts, k) + 10 * std::abs(was.contacts.value[k]))
-            return say(
-                "what events set at t = {:.6g} makes the gap of contact '{}' {:.6g}, and coordinates do not jump; "
-                "set values with which it is not negative, or give the state a rate",
-                after.t, view.names()[static_cast<std::size_t>(k)], value);
-    return {};
-}
-
 }  // namespace
-
-Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view, const KickView& kicks) {
-    const Mechanism& m = d.mechanism;
-    if (!m.unilateral.empty() || (m.speeds.empty() && m.size() > 0)) need_rates(d);
-    const auto at = [state = start.state()](double t, const double* y) {
-        State<double> result = state;
-        result.t = t;
-        std::copy_n(y, state.q.size(), result.q.begin());
-        std::copy_n(y + state.q.size(), state.qdot.size(), result.qdot.begin());
-        return result;
-    };
-    Contacts contacts{.names = view.names(),
-                      .restitution = restitutions(m, start.parameters),
-                      .situation = [&view, at](double t, const double* y) { return view.at(at(t, y)); },
-                      .on_jump = {}};
-    bool sets = false, has_rates = false;
-    for (const Mechanism::EventAction& event : m.event_actions) {
-        contacts.kicks.events.push_back(!event.impulse.empty() || !event.set.empty() || !event.rates.empty() ||
-                                        event.count);
-        contacts.kicks.last.push_back(event.count.value_or(0));
-        sets = sets || !event.set.empty();
-        has_rates = has_rates || !event.rates.empty();
-    }
-    if (sets)
-        contacts.kicks.set = [&m, &kicks, &view, at, bodies = std::make_shared<const InertiaCheck>(d.scene, m)](
-                                 const std::vector<int>& events, double t, const double* before,
-                                 double* after) -> std::optional<std::string> {
-            const State<double> from = at(t, before);
-            if (auto why = kicks.set(events, from, after)) return why;
-            const State<double> to = at(t, after);
-            for (const Diagnostic& found : bodies->findings(to))
-                if (found.severity == Severity::error)
-                    return say("what events set at t = {:.6g} is not possible: {}", t, found.message);
-            return broken_by_set(m, view, from, to);
-        };
-    if (has_rates)
-        contacts.kicks.refusal = [&kicks, at](int event, double t, const double* before, const double* after) {
-            return kicks.refusal(event, at(t, before), at(t, after));
-        };
-    contacts.kicks.coordinates = m.size();
-    contacts.kicks.of_modes = of_modes(m);
-    contacts.kicks.impulses = [&kicks, &view, at](const std::vector<int>& events, double t, const double* before,
-                                                  const double* set) {
-        KickView::Kicks kicked = kicks.kicks(events, at(t, before));
-        Impulses result{.list = {}, .refusal = std::move(kicked.refusal)};
-        for (KickView::Kicks::Kick& one : kicked.list) {
-            Eigen::VectorXd& impulse = result.list.emplace_back(std::move(one.impulse));
-            if (one.change_of_rates.size() == 0) continue;
-            const Eigen::VectorXd needed = view.at(at(t, set)).M * one.change_of_rates;
-            impulse = impulse.size() == 0 ? needed : Eigen::VectorXd(impulse + needed);
-        }
-        return result;
-    };
-    contacts.kicks.passed = [&kicks, at](double t, const double* before, const double* after,
-                                         const Eigen::VectorXd& acceleration) {
-        State<double> a = at(t, before), b = at(t, after);
-        a.qddot.assign(acceleration.begin(), acceleration.end());
-        b.qddot = a.qddot;
-        return kicks.passed(a, b);
-    };
-    if (!d.equations.speeds_are_rates())
-        contacts.kicks.speeds = [&kicks, at](double t, const double* y) { return kicks.speeds(at(t, y)); };
-    return contacts;
-}
 
 LoadedModes::LoadedModes(CompiledModes& compiled, const Start& start, const State<double>& first,
                          OnModeStep on_step)
@@ -298,6 +189,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         if (on_side_begin)
             on_side_begin(change, self->compiled.jumps->frictions[static_cast<std::size_t>(change.index)]);
     };
+    system.events_of_forces = events_of_forces(mode.derived.mechanism);
     system.refusal = [self](int k, double t, const double* y) {
         const int friction = self->compiled.jumps->frictions[static_cast<std::size_t>(k)][0].friction;
         return refusal_of(self->derived.mechanism.frictions[static_cast<std::size_t>(friction)], self->program, t,

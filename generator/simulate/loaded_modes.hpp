@@ -14,8 +14,6 @@
 
 #include "alembert/hybrid/hybrid_motion.hpp"
 #include "alembert/ode/projection.hpp"
-#include "analysis/contact/contacts.hpp"
-#include "analysis/contact/kicks.hpp"
 #include "simulate/compiled_modes.hpp"
 
 namespace alembert {
@@ -44,14 +42,6 @@ struct LoadedMode {
     /// Updates `side_sizes` from a motion.
     void measure_sides(const Trajectory& motion);
 };
-
-/// Whether rates may jump: the mechanism has contacts, or events with impulses.
-bool has_jumps(const Mechanism& mechanism);
-
-/// Contacts and events in the form that the runtime needs: gaps, rows and impulses by interpretation. The views
-/// must outlive the result. Throws ModelError if the state has speeds with which motions with jumps are not
-/// supported.
-Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view, const KickView& kicks);
 
 class LoadedModes {
 public:

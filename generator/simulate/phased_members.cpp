@@ -8,6 +8,7 @@
 #include "alembert/ode/energy_error.hpp"
 #include "alembert/ode/running_extrema.hpp"
 #include "model/formalism/with_states.hpp"
+#include "simulate/run_contacts.hpp"
 
 namespace alembert {
 

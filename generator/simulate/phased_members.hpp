@@ -13,6 +13,8 @@
 /// A motion depends neither on those before it nor on the number of threads.
 
 #include "alembert/batch/ensemble.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/contact/kicks.hpp"
 #include "simulate/loaded_modes.hpp"
 
 namespace alembert {

@@ -11,6 +11,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "model/multipliers.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -127,11 +128,11 @@ MotionTable rows_at_events(const HybridMotion& motion, const Derived& d, LoadedM
     RowWriter writer(table.values, d.mechanism, reactions, first);
     for (const Phase& phase : motion.phases)
         for (const EventRecord& event : phase.motion.events) {
-            Phase one{.closed = phase.closed, .motion = {}};
+            Phase one{.closed = event.closed.value_or(phase.closed), .motion = {}};
             one.motion.dimension = phase.motion.dimension;
             one.motion.times = {event.time};
             one.motion.states = event.state;
-            writer.add(one, modes(phase.closed), 1);
+            writer.add(one, modes(one.closed), 1);
         }
     return table;
 }
@@ -141,9 +142,7 @@ std::vector<std::string> row_columns(const Mechanism& m, const Program& program,
     for (const GiNaC::symbol& q : m.q) columns.push_back(q.get_name());
     for (const GiNaC::symbol& q : m.q) columns.push_back(q.get_name() + "'");
     for (const Mechanism::State& z : m.states) columns.push_back(z.derivative[0].get_name());
-    for (const auto* list : {&m.constraints, &m.redundant})
-        for (const Mechanism::Constraint& c : *list) columns.push_back(c.multiplier.get_name());
-    for (const Mechanism::Unilateral& c : m.unilateral) columns.push_back(c.gap.multiplier.get_name());
+    for (const GiNaC::symbol& multiplier : multipliers_of(m)) columns.push_back(multiplier.get_name());
     columns.emplace_back("energy");
     for (const Mechanism::Definition& output : m.outputs) columns.push_back(output.name);
     for (const Root& root : program.roots)

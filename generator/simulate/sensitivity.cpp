@@ -27,9 +27,10 @@ void check_smooth_motion(const Mechanism& m, const Program& program) {
                 "it out",
                 m.redundant[0].name));
     if (m.has_modes())
-        throw ModelError(say(
-            "--sensitivity: the scene has contacts, dry friction or events with impulses, at which derivatives "
-            "jump; leave these out"));
+        throw ModelError(
+            say("--sensitivity: the scene has contacts, dry friction or events that change the motion, at which "
+                "derivatives "
+                "jump; leave these out"));
     const std::vector<int> needed = program.needed(program.right_hand_side());
     if (std::any_of(needed.begin(), needed.end(), [&](int id) { return program[id].op == Op::sign; }))
         throw ModelError(

@@ -15,8 +15,10 @@
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
 #include "simulate/consistent_mode.hpp"
+#include "simulate/kept_energy.hpp"
 #include "simulate/method.hpp"
 #include "simulate/regularization.hpp"
+#include "simulate/run_contacts.hpp"
 #include "simulate/sides.hpp"
 #include "simulate/trust.hpp"
 
@@ -31,29 +33,6 @@ State<double> state_at(State<double> state, const Failure& failure) {
     state.q.assign(failure.state.begin(), middle);
     state.qdot.assign(middle, middle + static_cast<std::ptrdiff_t>(state.qdot.size()));
     return state;
-}
-
-/// Whether an event sets a state with which a constraint moves, so that an impulse of the constraint may act.
-bool moves_constraints(const Mechanism& m, const Mechanism::EventAction& event) {
-    std::vector<GiNaC::symbol> set;
-    for (const auto& one : event.set) set.push_back(m.states[static_cast<std::size_t>(one.first)].derivative[0]);
-    return std::any_of(m.constraints.begin(), m.constraints.end(), [&](const Mechanism::Constraint& c) {
-        const GiNaC::ex row = GiNaC::lst(c.row.begin(), c.row.end());
-        return m.z->depends(row, set) || m.z->depends(c.offset, set);
-    });
-}
-
-/// Whether energy was lost: an impact has taken some of it, or an impulse has changed it.
-bool is_lossy(const HybridMotion& motion, const Mechanism& m, const Contacts& contacts) {
-    return std::any_of(motion.events.begin(), motion.events.end(),
-                       [&](const EventRecord& e) {
-                           return !e.impulse.empty() ||
-                                  moves_constraints(m, m.event_actions[static_cast<std::size_t>(e.index)]);
-                       }) ||
-           std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
-               return e.kind == ContactEvent::Kind::impact &&
-                      contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
-           });
 }
 
 /// The quantities that are watched at every step of the main run, but not in the runs that estimate its error.
@@ -306,8 +285,8 @@ private:
     void settle_account(const Watch& watch) {
         EnergyAccount& account = run_.energy;
         account.set_change = watch.energy_error.set_change();
-        account.conserved =
-            energy_.conserved && !is_lossy(run_.motion, run_.mechanism, contacts_) && !account.set_change;
+        account.conserved = energy_.conserved && !account.set_change &&
+                            !has_jumped_in_energy(run_.motion, run_.mechanism, contacts_.restitution);
         account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
         account.drift = watch.energy_error.energy();
         account.balance = watch.energy_error.balance();
@@ -404,7 +383,7 @@ private:
 
     std::string reason_of(const Failure& failure, LoadedModes& modes) const {
         if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks ||
-            failure.kind == FailureKind::no_side)
+            failure.kind == FailureKind::impossible_event || failure.kind == FailureKind::no_side)
             return translated_from_library(failure.message);
         const LoadedMode& last = modes(run_.motion.phases.back().closed);
         State<double> state = state_at(first_, failure);

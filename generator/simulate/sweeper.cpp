@@ -11,12 +11,14 @@
 
 #include "alembert/base/process_time.hpp"
 #include "alembert/native/fingerprint.hpp"
+#include "analysis/contact/contacts.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
 #include "model/formalism/with_states.hpp"
 #include "program/event_code.hpp"
 #include "program/lower/lower.hpp"
+#include "simulate/kept_energy.hpp"
 #include "simulate/method.hpp"
 #include "simulate/regularization.hpp"
 #include "simulate/rows.hpp"
@@ -76,7 +78,8 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     const std::vector<std::string> names = s_.grid.names();
     starts_.emplace(m, names);
     has_varied_bodies_ = !m.masses.empty() && varies_parameters(m, names);
-    s_.conserved = energy_of(m).conserved && m.unilateral.empty() && !m.has_kicks();
+    const Energy energy = energy_of(m.unilateral.empty() ? m : with_all_closed(m));
+    s_.conserved = energy.conserved && !may_jump_in_energy(m, energy);
     program_ = with_signs_told(s_, lowered(s_).program);
     for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
     const std::size_t others = first_state(program_.speeds.size(), m);

@@ -88,7 +88,7 @@ void check_smooth(const Mechanism& m) {
     if (m.has_modes())
         throw ModelError(say(
             "Lyapunov exponents are computed for smooth motions; this scene has contacts, dry friction or events "
-            "with impulses, at which the variational equations jump"));
+            "that change the motion, at which the variational equations jump"));
 }
 
 /// x, the tangent vectors, and ∫ trace.

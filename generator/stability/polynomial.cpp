@@ -149,6 +149,26 @@ double terms_of_determinant(const SymbolicPolynomial& p) {
     return std::pow(static_cast<double>(most), static_cast<double>(p.size()) - 2);
 }
 
+/// Conditions in letters for the coefficients of the polynomial, each of which is told in the parameters; for
+/// where those in the parameters are too long to be read.
+void tell_by_coefficients(Stability& result, const SymbolicPolynomial& p, const Symbols& known) {
+    Symbols symbols = known;
+    std::string letter = "a";
+    const auto is_taken = [&](const GiNaC::symbol& s) { return s.get_name().starts_with(letter); };
+    while (std::any_of(known.all().begin(), known.all().end(), is_taken)) letter += '_';
+    SymbolicPolynomial letters;
+    std::vector<std::string> coefficients;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+        const std::string shown = in_letters(p[k], symbols);
+        if (shown.empty() || shown.size() > longest_condition) return;
+        const std::string name = fmt::format("{}{}", letter, k);
+        letters.push_back(p[k].normal().is_zero() ? ex(0) : ex(symbols.declare(name, SymbolInfo::Kind::other)));
+        coefficients.push_back(name + " = " + shown);
+    }
+    result.conditions = texts(hurwitz_conditions(letters, {letters.front()}), symbols);
+    if (!result.conditions.empty()) result.coefficients = std::move(coefficients);
+}
+
 /// By the equations if these are in the rates, else by Routh's.
 std::optional<SymbolicPencil> pencil_of(const Mechanism& m, const Equations& equations, const std::vector<ex>& q0,
                                         const std::vector<ex>& u0, const std::vector<ex>& z0) {
@@ -203,15 +223,17 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
         p.pop_back();
         are_neutral = true;
     }
-    if (terms_of_determinant(p) > most_terms || !make_first_positive(p, local)) return;
+    if (!make_first_positive(p, local)) return;
     std::vector<ex> positive;
     for (const MassElement& body : m.masses)
         if (GiNaC::is_a<GiNaC::symbol>(body.mass)) positive.push_back(body.mass);
     positive.push_back(p.front());
     bool odd_vanish = true;
     for (std::size_t k = 1; k < p.size(); k += 2) odd_vanish = odd_vanish && p[k].normal().is_zero();
-    result.conditions =
-        texts(odd_vanish ? real_frequency_conditions(p, positive) : hurwitz_conditions(p, positive), *m.symbols);
+    if (terms_of_determinant(p) <= most_terms)
+        result.conditions = texts(
+            odd_vanish ? real_frequency_conditions(p, positive) : hurwitz_conditions(p, positive), *m.symbols);
+    if (result.conditions.empty() && !odd_vanish) tell_by_coefficients(result, p, *m.symbols);
     if (result.conditions.empty()) return;
     const bool is_first = result.theorem == StabilityTheorem::first_approximation ||
                           result.theorem == StabilityTheorem::hurwitz ||

@@ -18,6 +18,7 @@
 #include "stability/critical.hpp"
 #include "stability/equilibrium/judge.hpp"
 #include "stability/floquet.hpp"
+#include "stability/linear/events_here.hpp"
 #include "stability/lyapunov.hpp"
 #include "stability/own_period.hpp"
 #include "stability/polynomial.hpp"
@@ -251,6 +252,11 @@ Decision undecided(const std::vector<RootOf>& roots) {
 
 /// Refuses states that `linearize` accepts but for which stability cannot be decided.
 void check_steady(const LinearizedScene& near) {
+    if (const auto why = disturbed_by_event(near, near.start))
+        throw ModelError(
+            say("{}; 'alembert simulate' follows motions from states beside it. Give a state at which no event is "
+                "zero",
+                *why));
     for (const Mechanism::Unilateral& contact : near.mechanism.unilateral)
         for (const Mechanism::Constraint& c : near.mechanism.constraints)  // linearize closes contacts that press
             if (c.multiplier.is_equal(contact.gap.multiplier))

@@ -102,7 +102,10 @@ struct Stability {
     std::vector<StabilityAssumption> assumed = {};  ///< nothing of a verdict that is proved
     std::vector<std::string> conditions = {};       ///< "expr > 0", together necessary and sufficient
     std::string conditions_for = {};                ///< what for
-    std::vector<std::string> routh = {};            ///< of a polynomial: rows of Routh's array
+    /// Where the conditions are too long in the parameters: the coefficients of the characteristic polynomial that
+    /// stand in them, "a1 = D/m".
+    std::vector<std::string> coefficients = {};
+    std::vector<std::string> routh = {};  ///< of a polynomial: rows of Routh's array
     StabilityVerdict verdict = StabilityVerdict::undecided;
     StabilityTheorem theorem = StabilityTheorem::none;
     std::string reason = {};

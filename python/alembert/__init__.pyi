@@ -151,6 +151,7 @@ class Stability(Result):
     eigenvalues: list[tuple[float, float]]
     conditions: list[str]
     conditions_for: str
+    coefficients: list[str]
     certain: bool
     assumed: list[_Assumed]
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/contact/kicks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
+#include "model/multipliers.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -24,13 +28,26 @@ bool agree(double a, double b) {
     return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
 }
 
+/// Whether the value of each event changes only where events set states: states without a rate are all that
+/// moves it.
+std::vector<bool> moved_by_modes_alone(const Mechanism& m) {
+    std::vector<GiNaC::symbol> moving{m.t};
+    for (const auto* list : {&m.q, &m.qdot, &m.qddot}) moving.insert(moving.end(), list->begin(), list->end());
+    for (const Mechanism::Input& input : m.inputs)
+        moving.insert(moving.end(), input.derivative.begin(), input.derivative.end());
+    for (const Mechanism::State& z : m.states)
+        if (!z.rate.is_zero()) moving.insert(moving.end(), z.derivative.begin(), z.derivative.end());
+    for (const GiNaC::symbol& multiplier : multipliers_of(m)) moving.push_back(multiplier);
+    std::vector<bool> result;
+    for (const Mechanism::Definition& event : m.events) result.push_back(!m.z->depends(event.value, moving));
+    return result;
+}
+
 }  // namespace
 
-KickView::KickView(const Mechanism& m, const Scene& scene) : program_(begun(m)) {
-    std::vector<GiNaC::symbol> multipliers;
-    for (const auto* list : {&m.constraints, &m.redundant})
-        for (const Mechanism::Constraint& c : *list) multipliers.push_back(c.multiplier);
-    for (const Mechanism::Unilateral& u : m.unilateral) multipliers.push_back(u.gap.multiplier);
+KickView::KickView(const Mechanism& m, const Scene& scene)
+    : program_(begun(m)), holds_modes_alone_(moved_by_modes_alone(m)) {
+    const std::vector<GiNaC::symbol> multipliers = multipliers_of(m);
     std::vector<ex> values;
     for (const Mechanism::Definition& event : m.events) {
         holds_multipliers_.push_back(m.z->depends(event.value, multipliers));
@@ -51,7 +68,11 @@ KickView::KickView(const Mechanism& m, const Scene& scene) : program_(begun(m)) 
         for (const auto* list : {&event.set, &event.rates})
             for (const auto& one : *list) wanted.push_back(one.second);
     }
+    const bool sets = std::any_of(m.event_actions.begin(), m.event_actions.end(),
+                                  [](const Mechanism::EventAction& event) { return !event.set.empty(); });
+    if (sets) wanted.push_back(m.lagrangian());
     const std::vector<int> nodes = lower_expressions(program_, m, wanted);
+    if (sets) energy_ = nodes.back();
     auto next = nodes.begin();
     const auto taken = [&next](std::size_t count) {
         const auto first = next;
@@ -148,34 +169,100 @@ std::optional<std::string> KickView::refusal(int event, const State<double>& bef
     return {};
 }
 
+/// The value of a state after these events, each of which takes what the one before has left.
+double KickView::set_in_turn(const Setters& setters, std::size_t at, const State<double>& before) const {
+    State<double> state = before;
+    for (const auto& setter : setters) state.qdot[at] = interpret(program_, state)[setter.second->node];
+    return state.qdot[at];
+}
+
+/// An order of the events that gives another value. All orders of a few are tried; of more, those in which two
+/// neighbours are exchanged, and the opposite one.
+std::optional<KickView::Setters> KickView::other_order(const Setters& setters, std::size_t at,
+                                                       const State<double>& before) const {
+    constexpr std::size_t few = 5;  // 120 orders
+    const double value = set_in_turn(setters, at, before);
+    const auto differs = [&](const Setters& order) { return !agree(value, set_in_turn(order, at, before)); };
+    Setters order(setters.rbegin(), setters.rend());
+    if (differs(order)) return order;
+    if (setters.size() > few) {
+        for (std::size_t i = 1; i < setters.size(); ++i) {
+            order = setters;
+            std::swap(order[i - 1], order[i]);
+            if (differs(order)) return order;
+        }
+        return {};
+    }
+    std::vector<std::size_t> places(setters.size());
+    std::iota(places.begin(), places.end(), 0);
+    while (std::next_permutation(places.begin(), places.end())) {
+        for (std::size_t i = 0; i < places.size(); ++i) order[i] = setters[places[i]];
+        if (differs(order)) return order;
+    }
+    return {};
+}
+
+std::string KickView::contradiction(const Setters& setters, const Setters& other, std::size_t at,
+                                    const State<double>& before) const {
+    const std::string& name = states_[at - coordinates_.size()];
+    const double value = set_in_turn(setters, at, before), else_value = set_in_turn(other, at, before);
+    if (setters.size() == 2)
+        return say(
+            "events '{0}' and '{1}' both set {2} at t = {3:.6g}, which makes it {4:.6g} in this order and "
+            "{5:.6g} in the other; let one of them set it, or make the values agree",
+            names_[static_cast<std::size_t>(setters[0].first)], names_[static_cast<std::size_t>(setters[1].first)],
+            name, before.t, value, else_value);
+    const auto listed = [&](const Setters& order) {
+        std::string list;
+        for (const auto& one : order)
+            list += (list.empty() ? "" : ", ") + fmt::format("'{}'", names_[static_cast<std::size_t>(one.first)]);
+        return list;
+    };
+    return say(
+        "the events {0} set {1} at t = {2:.6g}, which makes it {3:.6g} in this order and {4:.6g} in the order "
+        "{5}; "
+        "let one of them set it, or make the values agree",
+        listed(setters), name, before.t, value, else_value, listed(other));
+}
+
 std::optional<std::string> KickView::set(const std::vector<int>& events, const State<double>& before,
                                          double* after) const {
-    std::map<int, std::vector<std::pair<int, const Given*>>> by_state;
+    std::map<int, Setters> by_state;
     for (const int event : events)
         for (const Given& one : set_[static_cast<std::size_t>(event)])
             by_state[one.index].emplace_back(event, &one);
-    for (auto& [index, of_state] : by_state) {
-        std::vector<std::pair<int, const Given*>>& list = of_state;  // closures hold no bindings (clang 14)
+    for (const auto& [index, setters] : by_state) {
         const std::size_t at = coordinates_.size() + static_cast<std::size_t>(index);
-        const auto one_after_the_other = [&] {
-            State<double> state = before;
-            for (const auto& setter : list) state.qdot[at] = interpret(program_, state)[setter.second->node];
-            return state.qdot[at];
-        };
-        const double result = one_after_the_other();
-        const std::string& name = states_[static_cast<std::size_t>(index)];
-        const auto [last, given] = list.back();
-        if (!std::isfinite(result)) return not_finite(last, name, *given, before.t);
-        std::reverse(list.begin(), list.end());
-        if (const double other = one_after_the_other(); !agree(result, other))
-            return say(
-                "events '{0}' and '{1}' both set {2} at t = {3:.6g}, which makes it {4:.6g} in this order and "
-                "{5:.6g} in the other; let one of them set it, or make the values agree",
-                names_[static_cast<std::size_t>(list.back().first)], names_[static_cast<std::size_t>(last)], name,
-                before.t, result, other);
-        after[coordinates_.size() + at] = result;
+        const double value = set_in_turn(setters, at, before);
+        const auto [last, given] = setters.back();
+        if (!std::isfinite(value))
+            return not_finite(last, states_[static_cast<std::size_t>(index)], *given, before.t);
+        if (setters.size() > 1)
+            if (const auto other = other_order(setters, at, before))
+                return contradiction(setters, *other, at, before);
+        after[coordinates_.size() + at] = value;
     }
     return {};
+}
+
+std::string KickView::what_is_set(const std::vector<int>& events, const State<double>& after) const {
+    std::string result;
+    for (const int event : events)
+        for (const Given& one : set_[static_cast<std::size_t>(event)]) {
+            const auto index = static_cast<std::size_t>(one.index);
+            const std::string value = fmt::format("{:.6g}", after.qdot[coordinates_.size() + index]);
+            result += (result.empty() ? "" : ", ") +
+                      say("event '{0}' sets {1} to {2}", names_[static_cast<std::size_t>(event)], states_[index],
+                          one.text == value ? value : fmt::format("{} = {}", one.text, value));
+        }
+    return result;
+}
+
+std::optional<std::string> KickView::without_energy(const std::vector<int>& events,
+                                                    const State<double>& after) const {
+    if (!energy_ || std::isfinite(interpret(program_, after)[static_cast<std::size_t>(*energy_)])) return {};
+    return say("at t = {0:.6g} {1}, and the energy is no finite real number then; set what gives it a value",
+               after.t, what_is_set(events, after));
 }
 
 std::vector<PassedZero> KickView::passed(const State<double>& before, const State<double>& after) const {
@@ -183,7 +270,7 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
     std::vector<PassedZero> result;
     for (std::size_t k = 0; k < values_.size(); ++k) {
         if (holds_multipliers_[k]) {
-            result.push_back({.size = -1});
+            result.emplace_back();
             continue;
         }
         const double value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];

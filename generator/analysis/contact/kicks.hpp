@@ -46,11 +46,25 @@ public:
     std::optional<std::string> set(const std::vector<int>& events, const State<double>& before,
                                    double* after) const;
 
+    /// Why the state in which these events have left it cannot be: the energy has no finite value there. `after`
+    /// has what they have set.
+    std::optional<std::string> without_energy(const std::vector<int>& events, const State<double>& after) const;
+    /// "event 'flip' sets k to -k = -1", of all that these events set.
+    std::string what_is_set(const std::vector<int>& events, const State<double>& after) const;
+
     /// For each event, the side to which its value goes if its zero has just been passed. If the jump of the rates
     /// has changed the value, that is the sign of the value; otherwise it is the sign of its rate, or of its
-    /// second derivative if the rate is zero. Nothing is known of a value that holds multipliers: its size is
-    /// negative.
+    /// second derivative if the rate is zero. Nothing is said of values that hold multipliers.
     std::vector<PassedZero> passed(const State<double>& before, const State<double>& after) const;
+
+    /// For each event, whether its value holds multipliers.
+    const std::vector<bool>& of_multipliers() const { return holds_multipliers_; }
+    /// Whether it changes only where events set states: states without a rate are all that moves it.
+    const std::vector<bool>& of_modes() const { return holds_modes_alone_; }
+    /// The value of an event that holds no multipliers.
+    double value(std::size_t event, const State<double>& state) const {
+        return interpret(program_, state)[static_cast<std::size_t>(values_[event])];
+    }
 
     /// The scene's speeds from the rates.
     std::vector<double> speeds(const State<double>& state) const;
@@ -58,14 +72,20 @@ public:
 private:
     Program program_;
     std::vector<int> values_, slopes_, bends_, speeds_;
+    std::optional<int> energy_ = {};                      ///< T − V, where events set states
     std::vector<std::vector<int>> impulses_, gradients_;  ///< nodes for each event
     struct Given {
         int index;  ///< of a state or coordinate
         int node;
         std::string text;
     };
+    using Setters = std::vector<std::pair<int, const Given*>>;  ///< the events that set a state
+    double set_in_turn(const Setters& setters, std::size_t at, const State<double>& before) const;
+    std::optional<Setters> other_order(const Setters& setters, std::size_t at, const State<double>& before) const;
+    std::string contradiction(const Setters& setters, const Setters& other, std::size_t at,
+                              const State<double>& before) const;
     std::string not_finite(int event, const std::string& what, const Given& given, double t) const;
-    std::vector<bool> holds_multipliers_;  ///< for each event
+    std::vector<bool> holds_multipliers_, holds_modes_alone_;  ///< for each event
     std::vector<std::vector<Given>> set_, rates_;
     std::vector<std::map<std::string, std::string>> texts_;  ///< of impulses, by coordinate
     std::vector<std::string> names_, coordinates_, states_;

@@ -26,6 +26,7 @@
 #include "model/sample_functions.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/perturbed_tree.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 
@@ -111,6 +112,23 @@ std::vector<Diagnostic> warning_of_redundancy(const Prepared& p, const Mechanism
              Severity::warning, "redundant", c.name}};
 }
 
+/// "k = 1, n = 0": what events set and nothing else changes, at the start; empty if there is nothing of the kind.
+std::string held_by_modes(const Mechanism& m, const Overrides& at) {
+    const Start start = start_of(m, at);
+    std::string result;
+    for (std::size_t i = 0; i < m.states.size(); ++i) {
+        const auto sets = [&](const Mechanism::EventAction& event) {
+            return std::any_of(event.set.begin(), event.set.end(),
+                               [&](const auto& one) { return static_cast<std::size_t>(one.first) == i; });
+        };
+        if (!m.states[i].rate.is_zero() || std::none_of(m.event_actions.begin(), m.event_actions.end(), sets))
+            continue;
+        result += fmt::format("{}{} = {:.6g}", result.empty() ? "" : ", ", m.states[i].derivative[0].get_name(),
+                              start.states[i]);
+    }
+    return result;
+}
+
 }  // namespace
 
 Derived derived(Scene scene, const DeriveOptions& options) {
@@ -130,10 +148,16 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     d.mechanism.z = d.equations.z;
     if (options.with_states) d.equations = with_states(d.equations, d.mechanism);
-    if (options.with_states && d.mechanism.has_kicks())
+    if (options.with_states && d.mechanism.has_kicks()) {
+        const std::string held = held_by_modes(d.mechanism, options.at);
         d.warn("events",
-               say("warning: the scene has events that change rates or states; what is said here is of the "
-                   "equations between them\n"));
+               held.empty()
+                   ? say("warning: the scene has events that change rates or states; what is said here is "
+                         "of the equations between them\n")
+                   : say("warning: the scene has events that change rates or states; what is said here is "
+                         "of the equations between them, with {}\n",
+                         held));
+    }
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
         d.warn(
             "poles",

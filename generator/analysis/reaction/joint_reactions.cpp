@@ -12,6 +12,7 @@
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
 #include "model/geometry.hpp"
+#include "model/multipliers.hpp"
 #include "program/lower/held_loads.hpp"
 #include "program/lower/inverse.hpp"
 #include "program/lower/lower.hpp"
@@ -134,12 +135,9 @@ Cut cut_open(const Scene& scene, int coordinates) {
 }
 
 /// The names of all multipliers of a mechanism, sorted.
-std::vector<std::string> multipliers_of(const Mechanism& mechanism) {
+std::vector<std::string> names_of_multipliers(const Mechanism& mechanism) {
     std::vector<std::string> names;
-    for (const auto* list : {&mechanism.constraints, &mechanism.redundant})
-        for (const Mechanism::Constraint& c : *list) names.push_back(c.multiplier.get_name());
-    for (const Mechanism::Unilateral& contact : mechanism.unilateral)
-        names.push_back(contact.gap.multiplier.get_name());
+    for (const GiNaC::symbol& multiplier : multipliers_of(mechanism)) names.push_back(multiplier.get_name());
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
@@ -283,7 +281,7 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
         if (mechanism.rollings[r].is_along) m = along_axes(std::move(m), static_cast<int>(r));
 
     JointReactions result;
-    result.multipliers = multipliers_of(mechanism);
+    result.multipliers = names_of_multipliers(mechanism);
     CutLoads loads(mechanism, m, cut.rollings, result.multipliers);
     for (const JointArc& arc : mechanism.joints) result.joints.push_back(arc.name);
     loads.add_joints();

@@ -49,6 +49,9 @@ constexpr std::array patterns{
     to_say(
         "no contact mode is consistent at t = {}: contact '{}' and others open and close while the time does not "
         "advance; loosen the tolerance, or look at the gaps there"),
+    to_say("event '{}' and others at t = {} set states that turn its value back and forth at its zero without "
+           "end; what "
+           "slides along a zero is a force with sign(…), or a [[friction]]"),
     to_say("the impulses of event '{}' follow each other without end before t = {}: the last {} came within {} s; "
            "what bounces and comes to rest is a [[unilateral]] with its restitution; an impulse that is not to "
            "follow itself needs a 'direction' or another 'when'"),

@@ -70,6 +70,7 @@ Json as_json(const Stability& s) {
             {"samples", s.lyapunov->samples}};
     result["conditions"] = s.conditions;
     result["conditions_for"] = s.conditions_for;
+    result["coefficients"] = s.coefficients;
     if (!s.routh.empty()) result["routh"] = s.routh;
     if (s.near) {
         const Json linear = as_json(*s.near);
@@ -125,6 +126,9 @@ std::string as_text(const Stability& s, bool with_modes) {
     if (!s.conditions.empty()) {
         say_on(page, "\nConditions, for {}:\n", s.conditions_for);
         for (const std::string& condition : s.conditions) put(page, "  {}\n", condition);
+        if (!s.coefficients.empty())
+            say_on(page, "with the coefficients of the characteristic polynomial, highest power first:\n");
+        for (const std::string& coefficient : s.coefficients) put(page, "  {}\n", coefficient);
     }
     if (!s.routh.empty()) {
         say_on(page, "\nRouth's array:\n");

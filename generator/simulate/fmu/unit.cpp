@@ -36,6 +36,14 @@ std::string in_groups(const std::string& digits) {
     return result + "}";
 }
 
+/// Those that the C of the unit calls besides.
+std::vector<NamedFunction> functions_of(const UnitModel& model) {
+    std::vector<NamedFunction> result;
+    if (model.contacts > 0) result.push_back(model.contact_function);
+    if (!model.setters.empty()) result.push_back(model.set_function);
+    return result;
+}
+
 }  // namespace
 
 FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options) {
@@ -44,12 +52,10 @@ FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options
     FunctionalUnit unit{unit_model(std::move(scene), options.by)};
     unit.version = options.version;
     unit.platform = options.version == 2 ? folder_2 : folder_3;
-    const Source equations =
-        emit(unit.program,
-             {.language = CodeLanguage::c,
-              .functions = unit.contacts > 0 ? std::vector{unit.contact_function} : std::vector<NamedFunction>(),
-              .longest_function = longest_function,
-              .shares_multipliers = true});
+    const Source equations = emit(unit.program, {.language = CodeLanguage::c,
+                                                 .functions = functions_of(unit),
+                                                 .longest_function = longest_function,
+                                                 .shares_multipliers = true});
     unit.name = equations.file.substr(0, equations.file.size() - 2);
     unit.variables = unit_variables(unit);
     Fingerprint print;

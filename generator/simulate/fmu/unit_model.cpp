@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "analysis/contact/contacts.hpp"
+#include "analysis/contact/kicks.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/needs.hpp"
+#include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/quick_times.hpp"
 #include "program/switches.hpp"
@@ -64,22 +66,62 @@ void need_mass_matrix(const Program& program) {
             "name one, as in --by lagrange"));
 }
 
+/// Events that set a state on which a contact or constraint depends would open it, or make rates jump by
+/// themselves.
+void refuse_moved_constraints(const Mechanism& m) {
+    for (std::size_t k = 0; k < m.events.size(); ++k) {
+        std::vector<GiNaC::symbol> set;
+        for (const auto& one : m.event_actions[k].set)
+            set.push_back(m.states[static_cast<std::size_t>(one.first)].derivative[0]);
+        if (set.empty()) continue;
+        const auto check = [&](const Mechanism::Constraint& c) {
+            const auto depends = [&](const GiNaC::ex& e) { return m.z->depends(e, set); };
+            if (!std::any_of(c.row.begin(), c.row.end(), depends) && !depends(c.offset) &&
+                !(c.position && depends(*c.position)))
+                return;
+            throw ModelError(
+                say("event '{0}' sets a state that moves constraint '{1}', which a functional mock-up unit does "
+                    "not follow; "
+                    "use 'alembert simulate', or the library",
+                    m.events[k].name, c.name));
+        };
+        for (const Mechanism::Constraint& c : m.constraints) check(c);
+        for (const Mechanism::Unilateral& u : m.unilateral) check(u.gap);
+    }
+}
+
+/// Adds what events set, by the states of the scene and the rates.
+void add_sets(Program& program, UnitModel& model) {
+    const Mechanism& m = model.mechanism;
+    const int n = m.size(), first_of_states = n + static_cast<int>(first_state(speeds_of(program), m));
+    std::vector<GiNaC::ex> list;
+    for (std::size_t k = 0; k < m.events.size(); ++k) {
+        const Mechanism::EventAction& action = m.event_actions[k];
+        for (const auto& [state, value] : action.set) {
+            model.setters.emplace_back(static_cast<int>(k), first_of_states + state);
+            list.push_back(value);
+        }
+        for (const auto& [coordinate, value] : action.rates) {
+            model.setters.emplace_back(static_cast<int>(k), n + coordinate);
+            list.push_back(value);
+        }
+    }
+    if (list.empty()) return;
+    model.set_function = {.name = "sets_at",
+                          .about = "What events set, of the state before them.",
+                          .rows = static_cast<int>(list.size())};
+    for (const int node : lower_expressions(program, in_terms_of(model.equations, m), list))
+        program.roots.push_back({Group::function, "", node});
+}
+
 /// Adds n entries for each event that has impulses.
 void add_impulses(Program& program, const UnitModel& model) {
     const Mechanism& m = model.mechanism;
-    if (!m.has_kicks() && !m.has_counts()) return;
-    for (std::size_t k = 0; k < m.events.size(); ++k) {
-        const Mechanism::EventAction& action = m.event_actions[k];
-        if (!action.set.empty() || !action.rates.empty() || action.count)
-            throw ModelError(say(
-                "a functional mock-up unit knows impulses of events, but no 'set', 'rates' or 'count', and event "
-                "'{}' has one; use 'alembert simulate', or the library",
-                m.events[k].name));
-    }
-    if (!program.speeds.empty())
-        throw ModelError(
-            say("events with impulses can be exported only where the speeds are the rates of the coordinates; "
-                "leave [speeds] out, or the impulses"));
+    if (!model.has_jumps()) return;
+    if (!m.speeds.empty())
+        throw ModelError(say(
+            "events that give impulses or set rates can be exported only where the speeds are the rates of the "
+            "coordinates; leave [speeds] out, or what these events do"));
     need_mass_matrix(program);
     std::vector<GiNaC::ex> list;
     for (const Mechanism::EventAction& action : m.event_actions)
@@ -122,10 +164,18 @@ void complete(UnitModel& model, Program program) {
                              program.parameters.begin());
     model.clocks = add_clocks(program, watched, set);
     model.program = with_tangent(program).canonical();
-    model.contact_function.nodes = model.program.nodes_of(Group::function);
+    const std::vector<int> values = model.program.nodes_of(Group::function);
+    const auto of_contacts_end = values.end() - static_cast<std::ptrdiff_t>(model.setters.size());
+    model.contact_function.nodes.assign(values.begin(), of_contacts_end);
+    model.set_function.nodes.assign(of_contacts_end, values.end());
 }
 
 }  // namespace
+
+bool UnitModel::has_jumps() const {
+    return std::any_of(mechanism.event_actions.begin(), mechanism.event_actions.end(),
+                       [](const Mechanism::EventAction& a) { return !a.impulse.empty() || !a.rates.empty(); });
+}
 
 std::size_t UnitModel::parameter(const std::string& name) const {
     const auto found = std::find_if(program.parameters.begin(), program.parameters.end(),
@@ -139,6 +189,8 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     model.inputs = std::move(free.inputs);
     model.input_time = free.time;
     refuse_friction(model.mechanism);
+    refuse_moved_constraints(model.mechanism);
+    if (model.mechanism.has_kicks()) model.of_modes = KickView(model.mechanism, model.scene).of_modes();
     const std::optional<FunctionProgram> contacts = free_contacts(model);
     if (!model.mechanism.impulses.empty())
         model.warn(
@@ -167,6 +219,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
         need_mass_matrix(program);
         model.contact_function = absorbed(program, *contacts);
     }
+    add_sets(program, model);
     complete(model, std::move(program));
     model.start.parameters.resize(model.program.parameters.size(), 1);
     model.start.unknown.resize(direction_size(model.program), 0);

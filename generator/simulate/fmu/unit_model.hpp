@@ -30,7 +30,12 @@ struct UnitModel : Derived {
     std::vector<std::string> contact_forces = {};  ///< their names
     bool moves_contacts = false;                   ///< whether a gap depends on time too
     NamedFunction contact_function = {};           ///< contacts_at, whose nodes are in the program
-    int signs = 0;                                 ///< parameters that hold a sign, the last of the program
+    /// What events set: sets_at, whose nodes are in the program, and for each value the event and the component of
+    /// the state.
+    NamedFunction set_function = {};
+    std::vector<std::pair<int, int>> setters = {};
+    std::vector<bool> of_modes = {};  ///< for each event, whether only events change its value
+    int signs = 0;                    ///< parameters that hold a sign, the last of the program
     std::vector<TimedZero> clocks = {};
     State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
     /// q, u as the scene has them, before the constraints have moved guesses; and which of them are guesses.
@@ -45,6 +50,8 @@ struct UnitModel : Derived {
     std::vector<bool> times_follow = {};
 
     std::size_t coordinates() const { return program.coordinates.size(); }
+    /// Whether events make rates jump.
+    bool has_jumps() const;
     std::size_t speeds() const { return speeds_of(program); }
     /// The place of a parameter in the program. The name must be one.
     std::size_t parameter(const std::string& name) const;

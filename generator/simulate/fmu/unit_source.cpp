@@ -42,13 +42,32 @@ std::vector<std::string> quoted_names(const std::vector<UnitVariable>& variables
     return result;
 }
 
-std::vector<std::string> actions_of(const Mechanism& m) {
+std::vector<std::string> actions_of(const UnitModel& model) {
     std::vector<std::string> rows;
     int kicks = 0;
-    for (const Mechanism::EventAction& action : m.event_actions)
-        rows.push_back(fmt::format("{}, {}, {}", action.direction, action.stop ? 1 : 0,
-                                   action.impulse.empty() ? -1 : kicks++));
+    for (const Mechanism::EventAction& action : model.mechanism.event_actions) {
+        const bool sets = !action.set.empty() || !action.rates.empty(),
+                   is_of_modes = rows.size() < model.of_modes.size() && model.of_modes[rows.size()];
+        rows.push_back(fmt::format("{}, {}, {}, {}, {}, {}", action.direction, action.stop ? 1 : 0,
+                                   action.impulse.empty() ? -1 : kicks++, sets ? 1 : 0, action.count.value_or(0),
+                                   is_of_modes ? 1 : 0));
+    }
     return rows;
+}
+
+/// The event and the component of the state of each value that events set.
+std::vector<std::string> setters_of(const UnitModel& model) {
+    std::vector<std::string> rows;
+    for (const auto& [event, place] : model.setters) rows.push_back(fmt::format("{}, {}", event, place));
+    return rows;
+}
+
+void add_actions(kainjow::mustache::data& file, const UnitModel& model) {
+    file.set("actions", list_of(actions_of(model)));
+    file.set("sets", std::to_string(model.setters.size()));
+    file.set("has_sets", !model.setters.empty());
+    file.set("setters", list_of(setters_of(model)));
+    file.set("has_jumps", model.has_jumps());
 }
 
 /// The watched function of each clock, and in which way its argument tells a zero.
@@ -127,7 +146,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     number("variables", variables.size());
     file.set("table", list_of(rows_of(variables)));
     file.set("names", list_of(quoted_names(variables)));
-    file.set("actions", list_of(actions_of(model.mechanism)));
+    add_actions(file, model);
     number("clocks", model.clocks.size());
     file.set("has_clocks", !model.clocks.empty());
     file.set("clock_rows", list_of(clocks_of(model)));
@@ -165,7 +184,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     file.set("has_contacts", contacts > 0);
     file.set("moves_states", contacts > 0 || !project(p).results.empty());
     file.set("watches_energy", !model.moves_contacts && !energy(p).results.empty());
-    const std::size_t kicks = p.nodes_of(Group::event_impulse).empty() ? 0 : 1;
+    const std::size_t kicks = model.has_jumps() ? 1 : 0;
     file.set("projection", projection_text(p, CodeLanguage::c,
                                            {.watches_energy = !model.moves_contacts,
                                             .contacts = contacts,

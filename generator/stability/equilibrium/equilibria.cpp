@@ -16,6 +16,7 @@
 #include "model/formalism/needs.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/linear/dependence.hpp"
+#include "stability/linear/events_here.hpp"
 
 namespace alembert {
 
@@ -271,6 +272,10 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
                         .known = root.family ? StateKnown::in_numbers : known_at(result, problem, start, root.at),
                         .judgement = judge(problem, energy, root.at)};
         if (one.known == StateKnown::open) one.judgement = undecided_as_open(std::move(one.judgement));
+        if (const auto why = disturbed_by_event(result, one.start)) {
+            one.judgement.stable = Stable::undecided;
+            one.judgement.because = *why;
+        }
         if (penetrates(result, one.start) || turned_joint(result.mechanism, constraints, one.start.state()))
             return;
         // Coordinates that are cyclic, or moved by a constraint, from rest too.

@@ -66,7 +66,7 @@ void check_smooth(const Mechanism& m) {
     if (m.has_modes())
         throw ModelError(
             say("the first approximation is taken along smooth motions; this scene has contacts, dry friction or "
-                "events with impulses, at which deviations jump"));
+                "events that change the motion, at which deviations jump"));
 }
 
 }  // namespace

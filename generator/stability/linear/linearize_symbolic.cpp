@@ -38,6 +38,19 @@ GiNaC::exmap state_at(const Mechanism& m, const std::vector<ex>& q0, const std::
     return there;
 }
 
+/// Adds the values of inputs that do not change with time, and of those from outside, which keep theirs.
+void know_inputs(GiNaC::exmap& there, const Mechanism& m) {
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.from_outside) there[p.symbol] = p.value;
+    for (std::size_t round = 0; round < m.inputs.size(); ++round)  // they may stand in each other, in any order
+        for (const Mechanism::Input& input : m.inputs) {
+            const ex value = m.z->expand(input.value).subs(there);
+            if (m.z->depends(value, m.clock())) continue;
+            there[input.derivative[0]] = value;
+            there[input.derivative[1]] = there[input.derivative[2]] = 0;
+        }
+}
+
 /// Nothing if it is long, or has no derivative that GiNaC knows.
 std::optional<ex> readable_at(const ex& derivative, const GiNaC::exmap& there, const Mechanism& m) {
     const ex value = derivative.subs(there);
@@ -126,6 +139,7 @@ public:
             there_[m.q[i]] = m.z->expand(q0[i]);
             there_[m.qdot[i]] = m.z->expand(u0[i]);
         }
+        know_inputs(there_, m);
     }
 
     std::optional<SymbolicPencil> find() {
@@ -260,7 +274,8 @@ std::optional<SymbolicPencil> symbolic_pencil(const Mechanism& m, const Equation
     if (!e.speeds_are_rates() || (!m.constraints.empty() && !m.states.empty())) return {};
     try {
         if (m.constraints.empty()) {
-            const GiNaC::exmap there = state_at(m, q0, u0, z0);
+            GiNaC::exmap there = state_at(m, q0, u0, z0);
+            know_inputs(there, m);
             const auto found = matrices(m, e, there);
             if (!found) return {};
             const SymbolicPencil result{

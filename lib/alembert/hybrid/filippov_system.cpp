@@ -15,6 +15,7 @@
 #include "alembert/hybrid/side_choice.hpp"
 #include "alembert/hybrid/sliding_field.hpp"
 #include "alembert/hybrid/switching_scales.hpp"
+#include "alembert/hybrid/zero_of_jump.hpp"
 #include "alembert/ode/disturbance.hpp"
 
 namespace alembert {
@@ -94,13 +95,15 @@ public:
     bool next_mode(const Hit& hit) {
         if (result_.ending != Ending::stopped_by_event || hit.stops) return false;
         result_.ending = Ending::completed;
-        if (options_.disturbed.seed == 0) return pass(watched_, hit.guards) && begin_piece();
+        const std::vector<double> forces = events_here();
+        if (options_.disturbed.seed == 0)
+            return pass(watched_, hit.guards) && begin_piece() && !stops_by_jump(forces, hit);
         const std::vector<double> before = rate_here();
         if (!pass(watched_, hit.guards)) return false;
         const std::vector<double> after = rate_here();
         now_.late = late_by_rounding(options_.disturbed.seed,
                                      {.t = now_.t, .number = jumps_++, .before = before, .after = after});
-        return begin_piece();
+        return begin_piece() && !stops_by_jump(forces, hit);
     }
 
     std::string changes() const { return {}; }
@@ -183,6 +186,36 @@ private:
         SlidingField now(system_, sides_, dimension());
         now.evaluate(now_.t, now_.state.data());
         return {now.rate().begin(), now.rate().end()};
+    }
+
+    /// The values of the events of the run with the sides of now; none if no event looks at forces.
+    std::vector<double> events_here() const {
+        if (system_.events_of_forces.empty()) return {};
+        SlidingField now(system_, sides_, dimension());
+        now.evaluate(now_.t, now_.state.data());
+        if (system_.before_step) system_.before_step(now.sigma());
+        std::vector<double> value(events_.list.size());
+        events_(now_.t, now_.state.data(), now.rate().data(), value.data());
+        return value;
+    }
+
+    /// Records the events whose forces have jumped past zero, or to it, from their values `before`; whether one of
+    /// them stops the run.
+    bool stops_by_jump(const std::vector<double>& before, const Hit& hit) {
+        const std::vector<double> after = events_here();
+        result_.last_zeros.clear();
+        for (const int k : system_.events_of_forces) {
+            const auto i = static_cast<std::size_t>(k);
+            const Event& event = events_.list[i];
+            const auto passed = zero_of_jump(k, event, before[i], after[i]);
+            if (!passed || !passed->counts ||
+                std::any_of(hit.passed.begin(), hit.passed.end(), [&](const LastZero& z) { return z.event == k; }))
+                continue;
+            result_.events.push_back({.index = k, .name = event.name, .time = now_.t, .state = now_.state});
+            result_.last_zeros.push_back(*passed);
+            if (event.stop) result_.ending = Ending::stopped_by_event;
+        }
+        return result_.ending == Ending::stopped_by_event;
     }
 
     Rhs right_hand_side() const {

@@ -98,6 +98,8 @@ struct FilippovSystem {
     std::function<std::string(int k, double t, const double* y)> refusal = {};
     /// Bounds on the g_k, with the σ of the last call of `before_step`; may be empty.
     EventBounds bounds_of_functions = {};
+    /// The events of the run that look at forces, whose values jump where a sign changes.
+    std::vector<int> events_of_forces = {};
     std::function<void(const ModeChange&)> on_change = {};  ///< may be empty
     /// Called for each function that does not slide along its zero where an integration begins; may be empty.
     std::function<void(const ModeChange&)> on_begin = {};

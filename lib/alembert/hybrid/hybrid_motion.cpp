@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "alembert/base/tolerances.hpp"
 #include "alembert/hybrid/automaton.hpp"
-#include "alembert/hybrid/held_guard.hpp"
+#include "alembert/hybrid/jump_zeros.hpp"
+#include "alembert/hybrid/phase_guards.hpp"
 #include "alembert/ode/disturbance.hpp"
 
 namespace alembert {
@@ -21,17 +22,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int most_events_at_once = 100;
-
-/// The size of a reaction that would balance the other forces of the system.
-double reaction_scale(const Situation& here, const VectorXd& acceleration, int k) {
-    const VectorXd row = here.contacts.rows.row(k).cwiseAbs();
-    const VectorXd force = here.f.cwiseAbs() + here.M.cwiseAbs() * acceleration.cwiseAbs();
-    double size = 0;
-    for (Index i = 0; i < row.size(); ++i)
-        if (row[i] > 1e-9 * row.maxCoeff()) size = std::max(size, force[i]);
-    return row.maxCoeff() > 0 ? size / row.maxCoeff() : 0;
-}
+constexpr int most_events_at_once = 100;  // of a contact, where each takes a few
+constexpr double usual_rows = 200;        // of a run; what is shorter than the time between them is not seen
+constexpr double same_instant = 1e-12;    // relative to the time, which Newton's method on dense output reaches
 
 class Following {
 public:
@@ -70,13 +63,13 @@ public:
         const System& system = mode_->system;
         if (system.project) system.project(now_.t, now_.state.data());
         if (count_ > 0) {  // so that no short contact is missed
-            const double short_enough = options_.duration / 200;
+            const double short_enough = options_.duration / usual_rows;
             rest.longest_step = rest.longest_step > 0 ? std::min(rest.longest_step, short_enough) : short_enough;
         }
         if (!system.with_series) rest.when_cheaper = {};
         rest.on_step = mode_->on_step;
         Mode mode{.system = system,
-                  .guards = in_phases_ ? watched(*mode_) : mode_->events,
+                  .guards = in_phases_ ? guards() : mode_->events,
                   .own = count_,
                   .run = &mode_->events,
                   .options = std::move(rest),
@@ -127,6 +120,17 @@ public:
     }
 
 private:
+    Events guards() const {
+        return phase_guards(contacts_, *mode_,
+                            {.t = now_.t,
+                             .state = now_.state,
+                             .closed = closed_,
+                             .resting = resting_,
+                             .passed = passed_,
+                             .tolerance = tolerance_,
+                             .is_first = is_first()});
+    }
+
     /// The reason why a phase has ended.
     struct Halt {
         int contact = -1;                   ///< a contact that has closed or opened
@@ -153,48 +157,35 @@ private:
         return last > 0 && ++met_[event] >= last;
     }
 
-    /// Puts what the events of the instant set into `rates`, adds to `halt` those whose values that takes past
-    /// zero, and returns the sum of all impulses, each of which is also kept in the record of its event.
-    VectorXd act(Halt& halt, const std::vector<double>& before, std::vector<double>& rates) {
-        struct Round {
-            std::vector<int> events;
-            std::vector<double> before;
-        };
-        std::vector<Round> rounds;
-        for (std::vector<int> next = halt.kicks; !next.empty();) {
-            rounds.push_back({next, rates});
-            const std::vector<double>& from = rounds.back().before;
-            if (contacts_.kicks.set)
-                if (const auto why = contacts_.kicks.set(next, now_.t, from.data(), rates.data())) {
-                    fail(FailureKind::endless_kicks, *why);
-                    return {};
-                }
-            next = taken_past_zero(halt, from, rates);
-        }
-        if (rates != before && contacts_.kicks.on_set) contacts_.kicks.on_set(now_.t, before.data(), rates.data());
+    /// Puts what the events of a round set into `rates`. Returns the sum of their impulses, each of which is also
+    /// kept in the record of its event.
+    VectorXd act(const std::vector<int>& events, const std::vector<double>& before, std::vector<double>& rates) {
+        const ImpulsiveEvents& kicks = contacts_.kicks;
         VectorXd sum;
-        for (const Round& round : rounds) {
-            const Impulses given =
-                contacts_.kicks.impulses(round.events, now_.t, round.before.data(), rates.data());
-            if (given.refusal) {
-                fail(FailureKind::endless_kicks, *given.refusal);
-                return {};
-            }
-            for (std::size_t i = 0; i < given.list.size(); ++i) {
-                const VectorXd& one = given.list[i];
-                if (one.size() == 0) continue;
-                if (EventRecord* const record = last_record(round.events[i]))
-                    record->impulse.assign(one.begin(), one.end());
-                sum = sum.size() > 0 ? VectorXd(sum + one) : one;
-            }
+        if (events.empty()) return sum;
+        if (kicks.set)
+            if (const auto why = kicks.set(events, now_.t, before.data(), rates.data())) return refuse(*why);
+        if (rates != before && kicks.on_set) kicks.on_set(now_.t, before.data(), rates.data());
+        const Impulses given = kicks.impulses(events, now_.t, before.data(), rates.data());
+        if (given.refusal) return refuse(*given.refusal);
+        for (std::size_t i = 0; i < given.list.size(); ++i) {
+            const VectorXd& one = given.list[i];
+            if (one.size() == 0) continue;
+            if (EventRecord* const record = last_record(events[i])) record->impulse.assign(one.begin(), one.end());
+            sum = sum.size() > 0 ? VectorXd(sum + one) : one;
         }
         return sum;
+    }
+
+    VectorXd refuse(const std::string& why) {
+        fail(FailureKind::impossible_event, why);
+        return {};
     }
 
     /// States that are set may open closed contacts, and change the velocities that constraints want: rates then
     /// jump without an impulse of an event.
     VectorXd follow_set(const std::vector<double>& rates, VectorXd impulse) {
-        constexpr double negligible = 1e-12;
+        constexpr double negligible = 1e-12;  // a few hundred rounding errors of the terms
         const Situation here = contacts_.situation(now_.t, rates.data());
         const Index n = here.f.size();
         if (n == 0) return impulse;
@@ -208,65 +199,57 @@ private:
         return impulse.size() > 0 || holds ? impulse : VectorXd(VectorXd::Zero(n));
     }
 
-    /// The values of the scene's events in a mode.
-    std::vector<double> event_values(const ContactMode& mode, double t, const std::vector<double>& state) const {
-        std::vector<double> rate(state.size()), value(mode.events.list.size());
-        mode.system.rhs(t, state.data(), rate.data());
-        mode.events(t, state.data(), rate.data(), value.data());
-        value.resize(value.size() - contacts_.names.size());
-        return value;
-    }
-
-    /// Those that kick among the events whose values have passed zero because states were set. Each is told like
-    /// any other, and happens once in an instant.
-    std::vector<int> taken_past_zero(Halt& halt, const std::vector<double>& from, const std::vector<double>& to) {
-        constexpr double negligible = 1e-9;  // of the jump: values of constraints are zero to rounding
+    /// The events that act in the next round of this instant, because what has happened in the last one has taken
+    /// their values past zero. All that pass are told, and each counts once in an instant.
+    std::vector<int> next_round(Halt& halt, const std::vector<LastZero>& zeros) {
         std::vector<int> result;
-        if (from == to) return result;
-        const std::vector<double> state = as_integrated(contacts_.kicks, now_.t, to),
-                                  old = event_values(*mode_, now_.t, as_integrated(contacts_.kicks, now_.t, from)),
-                                  value = event_values(*mode_, now_.t, state);
-        for (std::size_t k = 0; k < value.size(); ++k) {
-            const double zero = negligible * std::abs(value[k] - old[k]);
-            const double beyond = old[k] > 0 ? -value[k] : value[k];
-            const bool passes =
-                std::abs(old[k]) > zero && (contacts_.kicks.is_of_modes(k) ? beyond >= -zero : beyond > zero);
-            const auto is_it = [k](const LastZero& known) { return known.event == static_cast<int>(k); };
-            const auto before = std::find_if(halt.passed.begin(), halt.passed.end(), is_it);
-            if (!passes || (before != halt.passed.end() && before->counts)) continue;
-            if (before != halt.passed.end()) halt.passed.erase(before);  // it passed the other way
+        for (const LastZero& zero : zeros) {
+            const auto known = std::find_if(halt.passed.begin(), halt.passed.end(),
+                                            [&](const LastZero& z) { return z.event == zero.event; });
+            if (known != halt.passed.end() && known->counts) continue;
+            if (known != halt.passed.end()) halt.passed.erase(known);  // it passed the other way
+            halt.passed.push_back(zero);
+            if (!zero.counts) continue;
+            const auto k = static_cast<std::size_t>(zero.event);
             const Event& event = mode_->events.list[k];
-            LastZero here{.event = static_cast<int>(k), .direction = old[k] > 0 ? -1 : 1};
-            here.counts = event.direction == 0 || event.direction == here.direction;
-            halt.passed.push_back(here);
-            if (!here.counts) continue;
-            const EventRecord record{.index = here.event, .name = event.name, .time = now_.t, .state = state};
+            EventRecord record{.index = zero.event, .name = event.name, .time = now_.t, .state = now_.state};
+            if (closed_ != result_.phases.back().closed) record.closed = closed_;
             result_.events.push_back(record);
             result_.phases.back().motion.events.push_back(record);
-            halt.stops = halt.stops || event.stop || is_last(here.event);
+            halt.stops = halt.stops || event.stop || is_last(zero.event);
             if (!contacts_.kicks.has(k)) continue;
-            halt.kicks.push_back(here.event);
-            result.push_back(here.event);
+            halt.kicks.push_back(zero.event);
+            result.push_back(zero.event);
         }
         return result;
     }
 
-    /// For an event whose value is known along the motion alone, because it holds multipliers.
-    PassedZero passed_along(std::size_t event) const {
-        constexpr double little = 1e-9;  // of the duration
-        const double h = std::max(little * options_.duration, 64 * tolerance::epsilon * std::abs(now_.t));
-        const ContactMode& next = modes_(closed_);
-        std::vector<double> later = now_.state, rate(now_.state.size());
-        next.system.rhs(now_.t, now_.state.data(), rate.data());
-        for (std::size_t i = 0; i < later.size(); ++i) later[i] += h * rate[i];
-        const double value = event_values(next, now_.t, now_.state)[event],
-                     then = event_values(next, now_.t + h, later)[event], change = then - value;
-        PassedZero result{.slope = change / h, .size = std::abs(change / h) * options_.duration};
-        if (std::abs(value) > 2 * std::abs(change)) return result;  // it has jumped
-        if (change == 0)
-            result.band = 2 * std::abs(value);
-        else
-            result.side = then > 0 ? 1 : -1, result.hold = h;
+    /// The zeros at which the values of events are, and which what was set turns into the direction that counts
+    /// for these: the motion grows through a zero to which it has fallen. Two events that turn each other back for
+    /// ever are a failure.
+    std::vector<LastZero> turned(const Halt& halt, const std::vector<double>& before,
+                                 const std::vector<double>& after) {
+        std::vector<LastZero> result;
+        const auto n = static_cast<std::ptrdiff_t>(acceleration_.size());
+        if (!contacts_.kicks.passed || before == after ||
+            !std::equal(before.begin(), before.begin() + 2 * n, after.begin()))
+            return result;
+        const std::vector<PassedZero> zeros =
+            contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration_);
+        for (const LastZero& zero : halt.passed) {
+            const auto k = static_cast<std::size_t>(zero.event);
+            const int wanted = mode_->events.list[k].direction, side = zeros[k].side;
+            if (wanted == 0 || side == 0 || contacts_.kicks.is_of_multipliers(k)) continue;
+            if (side == wanted && !zero.counts) result.push_back({zero.event, side, true});
+            if (side == -wanted && zero.counts) turned_back_.insert(zero.event);
+            if (side != wanted || !zero.counts || !turned_back_.contains(zero.event)) continue;
+            fail(FailureKind::endless_kicks,
+                 fmt::format(
+                     "event '{}' and others at t = {:.10g} set states that turn its value back and forth at "
+                     "its zero without end; what slides along a zero is a force with sign(…), or a "
+                     "[[friction]]",
+                     mode_->events.list[k].name, now_.t));
+        }
         return result;
     }
 
@@ -286,16 +269,17 @@ private:
     }
 
     /// Events whose zeros have just been passed are followed from the side to which they move.
-    void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after,
-                 const VectorXd& acceleration) {
+    void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after) {
         passed_.clear();
         if (!contacts_.kicks.passed) return;
         const std::vector<PassedZero> zeros =
-            contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration);
+            contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration_);
         for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
         for (const LastZero& zero : halt.passed) {
             const auto k = static_cast<std::size_t>(zero.event);
-            const PassedZero passed = zeros[k].size < 0 ? passed_along(k) : zeros[k];
+            const PassedZero passed = contacts_.kicks.is_of_multipliers(k)
+                                          ? zero_along({modes_(closed_), now_.state}, k, now_.t, options_.duration)
+                                          : zeros[k];
             passed_[k] = passed;
             if (!contains(halt.kicks, zero.event)) continue;
             ++kicks_;
@@ -306,23 +290,54 @@ private:
         }
     }
 
+    /// Each round of events acts on what the one before has left, with its impacts and changes of contact.
     void settle_into(const std::vector<int>& touched, const std::optional<int>& released, Halt& halt) {
+        const std::vector<double> integrated = now_.state;
         const std::vector<double> before =
             mode_ ? in_rates(contacts_.kicks, mode_->system.rhs, now_.t, now_.state) : now_.state;
-        const std::vector<double> integrated = now_.state;
         std::vector<double> rates = before;
-        VectorXd impulse = act(halt, before, rates);
+        PhaseEnd end = ended();
+        end.touched = touched;
+        end.released = released;
+        turned_back_.clear();
+        for (std::vector<int> events = halt.kicks;; end = ended()) {
+            const std::vector<double> from = rates;
+            const ContactMode* const old = mode_ ? &modes_(closed_) : nullptr;
+            const std::vector<double> was = now_.state;
+            std::vector<double> set;
+            settle_round(events, std::move(end), rates, set);
+            if (result_.failure) return;
+            if (!old) break;
+            std::vector<LastZero> zeros = zeros_of_jump(contacts_.kicks, {.t = now_.t,
+                                                                          .before = {*old, was},
+                                                                          .after = {modes_(closed_), now_.state},
+                                                                          .set = set,
+                                                                          .duration = options_.duration});
+            for (const LastZero& zero : turned(halt, from, rates)) zeros.push_back(zero);
+            if (result_.failure) return;
+            events = next_round(halt, zeros);
+            if (events.empty()) break;
+        }
+        if (options_.disturbed.seed != 0 && mode_) be_late_after(integrated);
+        go_from(halt, before, rates);
+    }
+
+    PhaseEnd ended() const {
+        return {.t = now_.t, .tolerance = tolerance_, .closed = closed_, .resting = resting_};
+    }
+
+    /// `set` becomes the state after what the events have set, before their impulses.
+    void settle_round(const std::vector<int>& events, PhaseEnd end, std::vector<double>& rates,
+                      std::vector<double>& set) {
+        const std::vector<double> before = rates;
+        end.impulse = act(events, before, rates);
         if (result_.failure) return;
-        if (rates != before) impulse = follow_set(rates, std::move(impulse));
-        ContactTransition settled = settle(contacts_,
-                                           {.t = now_.t,
-                                            .tolerance = tolerance_,
-                                            .closed = closed_,
-                                            .resting = resting_,
-                                            .touched = touched,
-                                            .released = released,
-                                            .impulse = impulse},
-                                           rates);
+        set = mode_ ? as_integrated(contacts_.kicks, now_.t, rates) : rates;
+        if (rates != before) {
+            end.impulse = follow_set(rates, std::move(end.impulse));
+            end.closed = closed_;
+        }
+        ContactTransition settled = settle(contacts_, end, rates);
         now_.state = mode_ ? as_integrated(contacts_.kicks, now_.t, rates) : rates;
         for (const ContactEvent& event : settled.events) {
             const auto struck = [&](const ContactEvent& e) {
@@ -335,16 +350,15 @@ private:
         }
         closed_ = std::move(settled.closed);
         resting_ = std::move(settled.resting);
+        acceleration_ = std::move(settled.acceleration);
         if (!settled.failure.empty())
-            return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks,
+            return fail(events.empty() ? FailureKind::no_contact_mode : FailureKind::impossible_event,
                         settled.failure);
-        for (const int k : halt.kicks)
+        for (const int k : events)
             if (contacts_.kicks.refusal)
                 if (const auto why = contacts_.kicks.refusal(k, now_.t, before.data(), rates.data()))
-                    return fail(FailureKind::endless_kicks, *why);
-        if (options_.disturbed.seed != 0 && mode_) be_late_after(integrated);
-        tell_gains(halt.kicks, before, settled.struck);
-        go_from(halt, before, rates, settled.acceleration);
+                    return fail(FailureKind::impossible_event, *why);
+        tell_gains(events, before, settled.struck);
     }
 
     /// What the next phase is off by, because the time at which it begins is rounded (disturbance.hpp).
@@ -376,54 +390,9 @@ private:
         sum.later_switches.insert(sum.later_switches.end(), s.later_switches.begin(), s.later_switches.end());
     }
 
-    /// The mode's events, prepared for a phase: those of contacts stop it, and so do those that kick.
-    Events watched(const ContactMode& mode) const {
-        const std::size_t scene = mode.events.list.size() - contacts_.names.size();
-        std::vector<Event> list = mode.events.list;
-        for (std::size_t k = 0; k < scene; ++k) {
-            if (!contacts_.kicks.has(k)) continue;
-            list[k].stop = true;
-            list[k].at_once = !is_first();
-        }
-        std::vector<HeldGuard> held;
-        for (const PassedZero& zero : passed_) held.push_back(held_from(now_.t, zero));
-        if (count_ == 0) return with_guards_held(mode.events, std::move(list), held);
-        held.resize(list.size());
-        std::vector<double> rate(now_.state.size()), value(mode.events.list.size());
-        mode.system.rhs(now_.t, now_.state.data(), rate.data());
-        mode.events(now_.t, now_.state.data(), rate.data(), value.data());
-        const Situation here = contacts_.situation(now_.t, now_.state.data());
-        const Index n = here.f.size();
-        const Eigen::Map<const VectorXd> q(now_.state.data(), n), u(now_.state.data() + n, n),
-            acceleration(rate.data() + n, n);
-        const VectorXd speed = gap_rates(here, u), still = negligible_rates(here, u);
-        const VectorXd sizes = negligible_gaps(here, q, 1), slack = tolerance_ * sizes;
-
-        for (int k = 0; k < count_; ++k) {
-            list[scene + k].stop = list[scene + k].at_once = true;
-            HeldGuard& watch = held[scene + k];
-            if (contains(closed_, k)) {
-                const double uncertain = 10 * tolerance_ * reaction_scale(here, acceleration, k);
-                if (value[scene + k] <= uncertain)
-                    watch.bound = 2 * std::max(uncertain, -value[scene + k]) + std::numeric_limits<double>::min();
-            } else if (value[scene + k] <= slack[k]) {
-                const double off = std::abs(value[scene + k]);
-                const double fall = here.contacts.acceleration[k] - here.contacts.rows.row(k).dot(acceleration);
-                const double rise = (2 * off + 16 * tolerance::epsilon * sizes[k]) / speed[k];
-                if (speed[k] > still[k])
-                    watch.until = now_.t + (fall > 0 ? std::min(rise, speed[k] / fall / 2)
-                                                     : rise);  // a quarter of the flight
-                else
-                    watch.bound = contains(resting_, k) ? std::max(10 * slack[k], 2 * off)
-                                                        : std::max(1e-12 * sizes[k], 2 * off);
-            }
-        }
-        return with_guards_held(mode.events, std::move(list), held);
-    }
-
     /// Whether contacts open and close again and again at the same time.
     bool is_stuck(int k) {
-        events_at_once_ = now_.t - last_event_ > 1e-12 * std::abs(now_.t) ? 0 : events_at_once_ + 1;
+        events_at_once_ = now_.t - last_event_ > same_instant * std::abs(now_.t) ? 0 : events_at_once_ + 1;
         last_event_ = now_.t;
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
         fail(FailureKind::no_contact_mode,
@@ -454,9 +423,11 @@ private:
     MotionState now_;
     std::vector<int> closed_, resting_;
     const ContactMode* mode_ = nullptr;  ///< the mode of the last phase
+    VectorXd acceleration_;              ///< q'' where the next phase begins
     std::vector<PassedZero> passed_;     ///< for the scene's events, at the start of the next phase
     std::map<int, KickSeries> series_;   ///< the kicks of each event
     std::map<int, int> met_;             ///< how many zeros of each counted event there were
+    std::set<int> turned_back_;          ///< events of this instant whose values were turned where they came from
     long kicks_ = 0, jumps_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;

@@ -23,8 +23,9 @@
 /// failure.
 ///
 /// Before the impulses act, the events set states. That may take the values of other events past zero, or to it
-/// where they change in no other way: these then happen at the same instant, after those that have set the
-/// states, each event once.
+/// where they change in no other way; and multipliers jump with whatever happens (jump_zeros.hpp). These events
+/// then happen at the same instant in a round of their own, which acts on what the one before has left: its
+/// states, its rates after all impacts, its contacts. Each event happens once in an instant.
 
 #include "alembert/hybrid/contact_transition.hpp"
 #include "alembert/hybrid/filippov_system.hpp"
@@ -64,7 +65,8 @@ struct HybridMotion {
 /// `initial` holds q, q' and the quadratures of the right-hand sides. Without contacts this is `integrate` in the
 /// mode {}. The rows of all phases fall on one grid; each phase also has a row at its first and at its last
 /// instant. If something fails during the run, `failure` says what, and the phases until then are kept. The
-/// message of FailureKind::no_contact_mode names the contacts, that of endless_kicks the event.
+/// message of FailureKind::no_contact_mode names the contacts, those of impossible_event and endless_kicks the
+/// event.
 HybridMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
                     const Options& options);
 

@@ -37,7 +37,7 @@ struct PassedZero {
                            ///< because its own contact is closed
     double slope = 0;      ///< the rate of the value before the jump
     double size = 0;       ///< the size of the terms of its value and of what coordinates of size max(1, |q|)
-                           ///< contribute; errors are measured relative to it. Negative: nothing is known
+                           ///< contribute; errors are measured relative to it
 };
 
 /// The generalized impulses of events of one instant, one for each; empty where an event gives none.
@@ -60,6 +60,7 @@ struct ImpulsiveEvents {
     std::vector<int> last = {};  ///< at which of its zeros an event ends the run; 0 or missing: at none
     std::vector<bool> of_modes =
         {};  ///< whether the value of an event changes only where events set states; missing: it does not
+    std::vector<bool> of_multipliers = {};  ///< whether it holds multipliers; missing: it does not
     /// Sets what follows q' in `after`; `before` is the state before these events of one instant. Returns why
     /// that cannot be, or nothing. May be empty.
     std::function<std::optional<std::string>(const std::vector<int>& events, double t, const double* before,
@@ -76,6 +77,12 @@ struct ImpulsiveEvents {
     bool any() const { return std::find(events.begin(), events.end(), true) != events.end(); }
     int last_of(std::size_t event) const { return event < last.size() ? last[event] : 0; }
     bool is_of_modes(std::size_t event) const { return event < of_modes.size() && of_modes[event]; }
+    bool is_of_multipliers(std::size_t event) const {
+        return event < of_multipliers.size() && of_multipliers[event];
+    }
+    bool looks_at_forces() const {
+        return std::find(of_multipliers.begin(), of_multipliers.end(), true) != of_multipliers.end();
+    }
     bool has(std::size_t event) const { return event < events.size() && events[event]; }
 };
 

@@ -27,9 +27,10 @@ enum class FailureKind {
     not_a_number,    ///< a rate is infinite or not a number where a step must start
     step_underflow,  ///< the step has become shorter than 16 ε |t|, so that time hardly advances
     budget_used_up,
-    no_contact_mode,  ///< contacts that cannot all stay closed or open (hybrid_motion.hpp)
-    endless_kicks,    ///< events that set values which cannot be, impulses after which there are no rates, or
-                      ///< infinitely many of them in a finite time (hybrid_motion.hpp)
+    no_contact_mode,   ///< contacts that cannot all stay closed or open (hybrid_motion.hpp)
+    impossible_event,  ///< an event sets what cannot be, or there are no rates after its impulses
+                       ///< (hybrid_motion.hpp)
+    endless_kicks,     ///< infinitely many impulses in a finite time (hybrid_motion.hpp)
     no_side  ///< a sign in the right-hand side has no consistent value, or more than one (filippov_system.hpp)
 };
 
@@ -49,6 +50,9 @@ struct EventRecord {
     /// The generalized impulse, by coordinate, if the event has one (hybrid_motion.hpp).
     std::vector<double> impulse = {};
     double energy_gain = 0;  ///< the work of the impulse, ½ impulse·(q'⁻ + q'⁺)
+    /// The contacts closed before it, where these are not those of its phase, because another event of the instant
+    /// has changed them.
+    std::optional<std::vector<int>> closed = {};
 };
 
 /// An event that is zero at the instant where an event has stopped the run.

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Units of scenes whose events set states and rates, set each other off, and are counted: the same motions as by
+// `simulate`, in co-simulation with large steps and in model exchange, by both versions of the interface.
+#include <doctest/doctest.h>
+
+#include "edits.hpp"
+#include "fmu_exports.hpp"
+#include "scenes.hpp"
+
+namespace fmu_modes {
+
+using namespace alembert::test;
+
+namespace {
+
+/// The largest difference of coordinates, rates and states, relative to max(1, |x|).
+double all_differences(const Instance& one, const Json& final) {
+    double worst = difference(one, final);
+    for (const auto& [name, value] : final["states"].items()) {
+        const double z = value;
+        worst = std::max(worst, std::abs(one.get(name) - z) / std::max(1.0, std::abs(z)));
+    }
+    return worst;
+}
+
+/// Until `end`, which may lie beyond the end of the motion.
+void check_unit(const std::string& scene, double end, double allowed = 1e-7) {
+    const Json final = simulated(scene, end);
+    for (const int version : {2, 3}) {
+        CAPTURE(version);
+        const Unit unit = exported(scene, version);
+        for (const int steps : {1, 7}) {
+            CAPTURE(steps);
+            Instance one(unit, true, 1e-10);
+            one.begin();
+            bool goes_on = true;
+            for (int k = 0; k < steps && goes_on; ++k) goes_on = one.step(end * k / steps, end / steps);
+            CHECK(goes_on == (final["time"].get<double>() > end - 1e-9));
+            CHECK(all_differences(one, final) < allowed);
+        }
+        Instance exchanged(unit, false);
+        exchanged.begin();
+        exchange(exchanged, end, 2000);
+        CHECK(all_differences(exchanged, final) < allowed);
+    }
+}
+
+std::string line(const std::string& events, const std::string& more = "") {
+    return temporary("line.toml", fmt::format(R"toml(
+[coordinates]
+x = {{ initial = -1, rate = 2 }}
+[states]
+n = {{}}
+m = {{}}
+s = {{ rate = "x" }}
+[energy]
+kinetic = "x'^2/2"
+potential = "x^2/2"
+{}
+{}
+)toml",
+                                              more, events));
+}
+
+}  // namespace
+
+// The recursion from instant to instant is that of "modes: a sampled controller with a hold …".
+TEST_CASE("fmu: a sampled controller holds what it has measured, and its last instant ends the simulation") {
+    const std::string scene = temporary("sampled.toml", R"toml(
+[parameters]
+T = 0.1
+k = 2
+[coordinates]
+x = { initial = 1 }
+[states]
+held = { initial = 1 }
+n = {}
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "-k*held - 2*x'"
+[[event]]
+name = "sample"
+when = "sin(pi*t/T)"
+set = { held = "x", n = "n + 1" }
+count = 30
+)toml");
+    check_unit(scene, 2.95);
+    check_unit(scene, 4);
+    for (const int version : {2, 3}) {
+        const Unit unit = exported(scene, version);
+        Instance one(unit, true, 1e-11);
+        one.begin();
+        CHECK_FALSE(one.step(0, 4));
+        CHECK(std::abs(one.get("x") + 0.058408001316365113976) < 1e-8);
+        CHECK(one.get("n") == 30);
+    }
+}
+
+TEST_CASE("fmu: rates and states that events set, in rounds, are those of a run") {
+    for (const char* const events :
+         {"[[event]]\nname = \"a\"\nwhen = \"x\"\nset = { n = \"n + 1\" }\nrates = { x = \"x'/2\" }\n",
+          "[[event]]\nname = \"a\"\nwhen = \"x\"\nset = { n = \"1 - n\" }\n"
+          "[[event]]\nname = \"b\"\nwhen = \"n - 0.5\"\nset = { m = \"m + 2\" }\nrates = { x = \"x' + n\" }\n"
+          "[[event]]\nname = \"c\"\nwhen = \"m - 4\"\nimpulses = { x = \"-x'/2\" }\n",
+          "[[event]]\nname = \"a\"\nwhen = \"x\"\nset = { n = \"n + 1 \" }\n"
+          "[[event]]\nname = \"e\"\nwhen = \"x\"\nset = { n = \"n + x'\" }\nimpulses = { x = \"0.1*n\" }\n",
+          "[[event]]\nname = \"a\"\nwhen = \"x\"\ndirection = \"up\"\nset = { n = \"n + 1\" }\n"
+          "[[event]]\nname = \"last\"\nwhen = \"n - 3\"\nstop = true\n"}) {
+        INFO(events);
+        check_unit(line(events), 12.3);
+    }
+}
+
+TEST_CASE("fmu: impulses and rates stand beside states, coupled coordinates and constraints") {
+    const auto coupled = [](const char* const action) {
+        return temporary("coupled.toml", fmt::format(R"toml(
+[coordinates]
+x = {{ initial = -1, rate = 2 }}
+y = {{ initial = 0.3, rate = 0 }}
+[states]
+F = {{ rate = "(1 - F)/0.3" }}
+n = {{}}
+[energy]
+kinetic = "x'^2/2 + y'^2 + x'*y'/2"
+potential = "x^2/2 + 2*y^2"
+[forces]
+y = "F"
+[[event]]
+name = "a"
+when = "x"
+set = {{ n = "n + 1" }}
+{}
+)toml",
+                                                     action));
+    };
+    check_unit(coupled("impulses = { x = \"0.5*n + 1\" }"), 8);
+    check_unit(coupled("rates = { x = \"x'/2 + F\" }"), 8);
+    const std::string rod = temporary("rod.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = 1
+y = 0
+[states]
+n = {}
+[[particle]]
+name = "p"
+mass = 2
+position = ["x", "y"]
+[[constraint]]
+name = "rod"
+holonomic = "x^2 + y^2 = 1"
+[[event]]
+name = "push"
+when = "y + 0.6"
+direction = "down"
+set = { n = "n + 1" }
+rates = { x = "1.1*x'", y = "1.1*y'" }
+)toml");
+    check_unit(rod, 3);
+    const Unit unit =
+        exported(temporary("wrong.toml", edited(contents(rod), {{"y = \"1.1*y'\"", "y = \"y'\""}})), 2);
+    Instance one(unit, true, 1e-10);
+    one.begin();
+    CHECK(one.step_status(0, 1) == failed);
+}
+
+// It comes back to the floor with 0.8 of the speed, while a counter and a controller go on.
+TEST_CASE("fmu: contacts stand beside states that events set") {
+    check_unit(temporary("contact.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = 0
+y = 1
+[states]
+n = {}
+s = { rate = "y" }
+[[particle]]
+name = "b"
+mass = 2
+position = ["x", "y"]
+[[unilateral]]
+name = "floor"
+gap = "y"
+restitution = 0.8
+[forces]
+x = "n - x"
+[[event]]
+name = "half"
+when = "y - 0.5"
+set = { n = "n + 1" }
+rates = { x = "x' + 0.1*n" }
+)toml"),
+               2.3);
+}
+
+TEST_CASE(
+    "fmu: the scenes of modes run as units where these follow them, and are refused with the reason elsewhere") {
+    for (const char* const name : {"sampled_hold", "freewheel", "ratchet", "slack_rope", "pick_and_drop"}) {
+        INFO(name);
+        check_unit(source_path(fmt::format("scenes/modes/{}.toml", name)), 1.17, 1e-6);
+    }
+    const auto refused = run({"fmu", source_path("scenes/modes/clutch.toml"), "-o", file_name("clutch.fmu")});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("dry friction") != std::string::npos);
+    const std::string moved =
+        "gravity = [0, -9.81]\n[coordinates]\ny = 0\n[states]\nz = {}\n[[particle]]\nname = \"b\"\n"
+        "mass = 2\nposition = [0, \"y\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y - z\"\n"
+        "[[event]]\nname = \"drop\"\nwhen = \"t - 1\"\nset = { z = -0.5 }\n";
+    const auto moves = run({"fmu", temporary("moved.toml", moved), "-o", file_name("moved.fmu")});
+    CHECK(moves.exit == 3);
+    CHECK(moves.err.find("event 'drop' sets a state that moves constraint 'floor'") != std::string::npos);
+}
+
+}  // namespace fmu_modes
