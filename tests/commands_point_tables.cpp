@@ -335,11 +335,13 @@ TEST_CASE("point tables: files are read within limits, and nothing outside of th
         return run({"eval", folder + "/scene.toml", "--json"});
     };
     for (const char* const text :
-         {"0,0\n2,4\n", "x, f\n0, 0\n\n2, 4   # the last\n", "0;0\r\n2;4\r\n", "# measured\n0 0\n2\t4"})
+         {"0,0\n2,4\n", "x, f\n0, 0\n\n2, 4   # the last\n", "0;0\r\n2;4\r\n", "# measured\n0 0\n2\t4",
+          "\xEF\xBB\xBF\"x\",\"f\"\r\n\"0\",\"0\"\r\n\"2\", \"4\"\r\n"})
         CHECK(output(Json::parse(answer(text).out), "value") == 2);
     has(answer("0,0\n1,2,3\n").err, "points.csv: line 2 is '1,2,3'; expected 2 numbers");
     has(answer("0,0\n1,x\n").err, "line 2 is '1,x'");
     has(answer("0,0\n1,inf\n").err, "line 2");
+    has(answer("0;0\n1;0,5\n").err, "the decimal sign is a point");
     has(answer("0,0\n2,1\n1,1\n").err, "line 3: x is 1 after 2");
     const Run link = run_shell("ln -sf /etc/hostname \"$1/link.csv\"", {folder});
     REQUIRE(link.exit == 0);

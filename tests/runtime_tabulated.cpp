@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functions by points in the runtime: sides, side functions and their bounds, on random tables with and without a
-// period.
+// Functions by points in the runtime: intervals that are held, side functions and their bounds, on random tables
+// with and without a period.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace {
 
 constexpr unsigned seed = 20261130;
 
-Table::Points drawn(std::mt19937& random, bool is_periodic) {
+Table::Points drawn(std::mt19937& random, bool is_periodic, int least = 3) {
     std::uniform_real_distribution<double> step(0.1, 1), value(-1, 1);
     Table::Points points{.axes = {{.at = {value(random)}}}, .values = {value(random)}};
-    const int count = 3 + static_cast<int>(random() % 6);
+    const int count = least + static_cast<int>(random() % 6);
     for (int k = 0; k < count; ++k) {
         points.axes[0].at.push_back(points.axes[0].at.back() + step(random));
         points.values.push_back(value(random));
@@ -38,58 +38,107 @@ Table::Points drawn(std::mt19937& random, bool is_periodic) {
     return points;
 }
 
-double at(const Table& f, int order, double x, int side = 0) {
-    return f.value<double>({order, 0}, {&x, nullptr}, {side, 0});
+double at(const Table& f, int order, double x, double number = Table::free) {
+    return f.value<double>({order, 0}, {&x, nullptr}, {number, Table::free});
+}
+
+/// The number of the interval of x, through all periods: how many knots are at or before it.
+long interval_of(const TableAxis& axis, double x) {
+    const double turns = axis.period > 0 ? std::floor((x - axis.at.front()) / axis.period) : 0;
+    long number = static_cast<long>(turns) * static_cast<long>(axis.kinks.size());
+    for (const int kink : axis.kinks)
+        number += axis.at[static_cast<std::size_t>(kink)] + turns * axis.period <= x ? 1 : 0;
+    return number;
+}
+
+/// As it is held.
+double held_number(const Table& f, int order, long number) {
+    const long around = f.cycle(0, {order, 0});
+    return static_cast<double>((number % around + around) % around);
 }
 
 }  // namespace
 
-TEST_CASE("tabulated: a value with the side of its interval is the value, and goes on across the next knot") {
+TEST_CASE("tabulated: a value held in its interval is the value, and goes on across the next knots") {
     std::mt19937 random(seed);
-    for (int trial = 0; trial < 200; ++trial) {
-        const Table f(drawn(random, trial % 2 == 0));
+    for (int trial = 0; trial < 300; ++trial) {
+        // Those of many points have their intervals told apart as even and odd alone.
+        const Table f(drawn(random, trial % 2 == 0, trial % 3 == 0 ? 80 : 3));
         const TableAxis& axis = f.axes()[0];
         INFO("seed ", seed, ", trial ", trial);
         const double width = axis.at.back() - axis.at.front();
         std::uniform_real_distribution<double> place(axis.at.front() - width, axis.at.back() + width);
+        if (axis.kinks.empty()) continue;
+        CHECK(f.tells_knots(0, {0, 0}) == (axis.kinks.size() <= Table::most_told));
+        const int side_order = Table::side_order(0);
         for (int order = 0; order < 2; ++order) {
-            if (!f.has_kinks(0, {order, 0})) continue;
-            const int side_order = Table::side_order(0, {order, 0});
             for (int k = 0; k < 20; ++k) {
                 const double x = place(random), w = at(f, side_order, x);
-                const int side = w > 0 ? 1 : -1;
+                const long number = interval_of(axis, x);
                 if (std::abs(w) < 1e-6) continue;
-                CHECK(at(f, order, x, side) == at(f, order, x));
+                CHECK((w > 0) == (number % 2 == 0));
+                CHECK(at(f, order, x, held_number(f, order, number)) == at(f, order, x));
+                const double quick = f.value_of_one(order, x, held_number(f, order, number));
+                CHECK(std::abs(quick - at(f, order, x)) <= 1e-13 * (1 + std::abs(quick)) * 24 / 1e-2);
                 // The slope of the side function by differences.
                 const double h = 1e-7, slope = (at(f, side_order, x + h) - at(f, side_order, x - h)) / (2 * h);
                 CHECK(std::abs(slope - at(f, side_order + 1, x)) < 1e-5);
             }
-            // Just beyond a knot the other side's value is near, and the held one is smooth.
-            for (const int kink : axis.kinks[order > 0 ? 1 : 0]) {
+            for (const int kink : axis.kinks) {
                 const double x = axis.at[static_cast<std::size_t>(kink)], h = 1e-5;
-                const int before = at(f, side_order, x - h) > 0 ? 1 : -1;
-                CHECK(at(f, side_order, x + h) * before < 0);
+                const double before = held_number(f, order, interval_of(axis, x - h)),
+                             after = held_number(f, order, interval_of(axis, x + h));
+                CHECK(before != after);
                 CHECK(std::abs(at(f, side_order, x)) < 1e-12);
+                // Just beyond a knot the other interval's value is near, and the held one is smooth.
                 const double there = at(f, order, x + h, before), here = at(f, order, x - h),
                              far = at(f, order, x - 3 * h);
                 // A step of 2 h, and second derivatives of at most 24/0.1², or third ones of 24/0.1³.
                 CHECK(std::abs(there - (2 * here - far)) < 4 * h * h * (order == 0 ? 2400 : 24000));
+                // Between two numbers that follow each other there is the mixture of both.
+                if (after != before + 1) continue;
+                const double mixed = 0.75 * there + 0.25 * at(f, order, x + h, after);
+                CHECK(std::abs(at(f, order, x + h, before + 0.25) - mixed) < 1e-12 * (1 + std::abs(mixed)));
+                CHECK(std::abs(f.value_of_one(order, x + h, before + 0.25) - mixed) <
+                      1e-12 * (1 + std::abs(mixed)));
             }
         }
     }
+}
+
+// y is 0, then x − 2, then 5 (x − 4) …, each piece told from those two knots away.
+TEST_CASE("tabulated: an interval that is held is the same one however far x is") {
+    const Table f(
+        {.axes = {{.at = {0, 2, 2.01, 2.02, 9}}}, .values = {0, 0, 5, 0, 7}, .interpolation = {}, .outside = {}});
+    REQUIRE(f.axes()[0].kinks.size() == 3);
+    for (const double x : {0.5, 2.005, 2.015, 8.0}) {
+        CHECK(at(f, 0, x, 0) == 0);
+        CHECK(std::abs(at(f, 0, x, 1) - 500 * (x - 2)) < 1e-9);
+        CHECK(std::abs(at(f, 0, x, 2) - (5 - 500 * (x - 2.01))) < 1e-9);
+        CHECK(std::abs(at(f, 0, x, 3) - 7 * (x - 2.02) / 6.98) < 1e-12);
+        for (const double number : {0.0, 1.0, 2.0, 3.0})
+            CHECK(std::abs(f.value_of_one(0, x, number) - at(f, 0, x, number)) < 1e-9);
+    }
+    // With a period, of those less than a period away.
+    const Table g(
+        {.axes = {{.at = {0, 0.5, 1}, .period = 1}}, .values = {0, 1, 0}, .interpolation = {}, .outside = {}});
+    REQUIRE(g.axes()[0].kinks.size() == 2);
+    REQUIRE(g.cycle(0, {0, 0}) == 4);
+    CHECK(std::abs(at(g, 0, 5.75, held_number(g, 0, interval_of(g.axes()[0], 5.25))) - 1.5) < 1e-12);
+    CHECK(std::abs(at(g, 0, 4.75, held_number(g, 0, interval_of(g.axes()[0], 5.25))) + 0.5) < 1e-12);
 }
 
 TEST_CASE("tabulated: bounds of a side function hold its values and derivatives") {
     std::mt19937 random(seed + 1);
     for (int trial = 0; trial < 300; ++trial) {
         const Table f(drawn(random, trial % 2 == 0));
-        if (!f.has_kinks(0, {0, 0})) continue;
+        if (f.axes()[0].kinks.empty()) continue;
         INFO("seed ", seed + 1, ", trial ", trial);
         const TableAxis& axis = f.axes()[0];
         const double width = axis.at.back() - axis.at.front();
         std::uniform_real_distribution<double> place(axis.at.front() - width, axis.at.back() + width);
         const double a = place(random), b = a + (trial % 3 == 0 ? 0.05 : 0.7) * width;
-        const int order = Table::side_order(0, {0, 0});
+        const int order = Table::side_order(0);
         const Bounds bounds = f.side_bounds(order, {{a, b}, {1, 1}, {0, 0}});
         for (int k = 0; k <= 50; ++k) {
             const double x = std::min(b, a + (b - a) * k / 50);

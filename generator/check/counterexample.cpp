@@ -11,6 +11,7 @@
 #include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
 #include "analysis/exact/expression_of.hpp"
+#include "check/table_rounding.hpp"
 
 namespace alembert {
 
@@ -23,13 +24,6 @@ constexpr int enough_states = 3;
 
 bool is_small(const numeric& value) {
     return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
-}
-
-/// Whether the claim may fail by the rounding of a table's numbers alone: 0.1 + 0.15 x has no doubles. They have
-/// sixteen digits; differences of terms of a million are left with ten.
-bool is_rounding(const Mechanism& m, const numeric& residual) {
-    return GiNaC::abs(residual) < GiNaC::pow(numeric(10), numeric(-10)) &&
-           std::any_of(m.tables.begin(), m.tables.end(), [](const auto& table) { return table != nullptr; });
 }
 
 void add_value(const Told& told, const std::string& name, const ex& e, const RealState& state,
@@ -289,6 +283,7 @@ std::optional<FoundState> state_where(const Told& told, const Motions& motions, 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,
                                              int root) {
     const StatesOnSheet states(told, motions, p, {root});
+    const TableRounding rounding(told);
     // Operations in exact numbers, which take microseconds each. Nearly always one of the first few states will
     // do.
     constexpr int most_operations = 1'000'000;
@@ -297,7 +292,7 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
         const auto state = states(seed);
         if (!state) continue;
         const auto value = evaluate(p, *state, {root});
-        if (!value || is_small((*value)[0]) || is_rounding(told.mechanism, (*value)[0]) ||
+        if (!value || is_small((*value)[0]) || rounding.explains(p, root, *state, (*value)[0]) ||
             !is_as_typed(p, root, *state, (*value)[0]))
             continue;
         Counterexample result = described(told, *state, (*value)[0]);
@@ -355,7 +350,8 @@ void add_seen(const Told& told, const Motions& motions, const NodeInCells& of, c
     const auto value = evaluate(of.program, state, {of.node});
     if (!value) return;
     ++seen.states;
-    if (seen.fails || is_small((*value)[0]) || is_rounding(told.mechanism, (*value)[0]) ||
+    if (seen.fails || is_small((*value)[0]) ||
+        TableRounding(told).explains(of.program, of.node, state, (*value)[0]) ||
         !is_as_typed(of.program, of.node, state, (*value)[0]))
         return;
     seen.fails = described(told, state, (*value)[0]);

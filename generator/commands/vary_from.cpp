@@ -13,7 +13,7 @@
 #include "base/language/say.hpp"
 #include "commands/vary.hpp"
 #include "commands/verb.hpp"
-#include "scene/lists.hpp"
+#include "scene/point_table.hpp"
 #include "scene/text.hpp"
 #include "scene/units.hpp"
 
@@ -21,21 +21,7 @@ namespace alembert {
 
 namespace {
 
-/// The fields of a line without blanks around them and without quotes.
-std::vector<std::string> fields_of(const std::string& line) {
-    std::vector<std::string> fields = at_commas(line);
-    for (std::string& field : fields) {
-        field.erase(0, std::min(field.find_first_not_of(" \t\""), field.size()));
-        field.erase(field.find_last_not_of(" \t\r\"") + 1);
-    }
-    return fields;
-}
-
 constexpr std::size_t most_listed = 100'000'000;
-
-bool is_blank(const std::string& line) {
-    return line.find_first_not_of(" \t\r") == std::string::npos;
-}
 
 }  // namespace
 
@@ -53,9 +39,9 @@ Grid grid_from_file(const std::string& path, const Scene& scene) {
             {});
     };
     for (std::string line; std::getline(file, line);) {
-        if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // the byte order mark
-        if (is_blank(line)) continue;
-        const std::vector<std::string> fields = fields_of(line);
+        ++number;
+        const std::vector<std::string> fields = fields_in_line(line, false);
+        if (fields.empty()) continue;
         if (grid.axes.empty()) {
             for (const std::string& name : fields) {
                 if (name.empty()) throw wrong(say("a name is missing"));

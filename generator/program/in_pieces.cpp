@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "program/in_pieces.hpp"
 
-#include <cln/float.h>
-#include <cln/real.h>
-
+#include "program/known_knots.hpp"
 #include "program/rewriting.hpp"
 
 namespace alembert {
@@ -11,10 +9,6 @@ namespace alembert {
 namespace {
 
 constexpr std::size_t most_points = 501;
-
-Rational exact(double x) {
-    return cln::rational(cln::cl_DF(x));
-}
 
 class Pieces {
 public:

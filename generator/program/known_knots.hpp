@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Knots of long tables whose times are known before a run: those of f(t), or of f(2 t − 1).
+/// Knots of tables whose times are known before a run: those of f(t), or of f(2 t − 1).
 ///
-///     is_affine_in_time(program, id)       // 2 t − 1, k t + c with parameters
-///     has_known_knots(program, call, 0)    // then steps end there (lower/quick_times.hpp), and no side is held
+///     has_known_knots(program, table, call, 0)    // then steps end there (lower/quick_times.hpp)
 ///
-/// A value must be continuous there: where it jumps, a step would have both values at its ends.
+/// A value must be continuous there: where it jumps, a step would have both values at its ends. Of long tables
+/// (TabulatedFunction::tells_knots) these are no switches of a run besides.
+
+#include <string>
+#include <vector>
 
 #include "program/program.hpp"
 
 namespace alembert {
 
-/// The positions of the knots at which a derivative up to the second of this derivative jumps.
-inline const std::vector<int>& kinks_of(const TabulatedFunction& table, std::size_t axis,
-                                        const TabulatedFunction::Orders& orders) {
-    return table.axes()[axis].kinks[orders[0] + orders[1] > 0 ? 1 : 0];
-}
+/// The number that a double is.
+Rational exact(double x);
 
-bool is_affine_in_time(const Program& program, int id);
-
-/// Whether the knots of the table along this argument are such, if it has some at which a derivative jumps.
+/// Whether the table has such knots along this argument.
 bool has_known_knots(const Program& program, const TabulatedFunction& table, const Program::TableCall& call,
                      std::size_t argument);
+
+/// The names of the tables over the state in which knots are so close, compared with others, that the control of a
+/// step may not see a pulse between them.
+std::vector<std::string> tables_with_close_knots(const Program& program);
+
+/// Below this distance knots are close: by much less apart than others.
+double close_knots(const TableAxis& axis);
 
 }  // namespace alembert

@@ -450,8 +450,12 @@ std::vector<int> Program::needed_state() const {
     return {components.begin(), components.end()};
 }
 
+std::size_t Program::function_of(const Node& node) const {
+    return static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
+}
+
 void Program::refuse_unspecified(const Node& node) const {
-    const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
+    const std::size_t index = function_of(node);
     const std::string name = index < functions.size() ? "'" + functions[index] + "'" : say("a function");
     throw ModelError(
         say("[functions] leaves {} open, so that what depends on it has no values; `derive`, `check` and "
@@ -461,7 +465,7 @@ void Program::refuse_unspecified(const Node& node) const {
 }
 
 std::shared_ptr<const TabulatedFunction> Program::shared_table_of(const Node& node) const {
-    const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
+    const std::size_t index = function_of(node);
     return index < tables.size() ? tables[index] : nullptr;
 }
 
@@ -484,7 +488,7 @@ Program::TableCall Program::table_call(const Node& node) const {
     }
     const std::size_t plain = 1 + 2 * call.arguments;
     call.is_held = node.args.size() > plain;
-    for (std::size_t k = 0; call.is_held && k < call.arguments; ++k) call.side[k] = node.args[plain + k];
+    for (std::size_t k = 0; call.is_held && k < call.arguments; ++k) call.number[k] = node.args[plain + k];
     return call;
 }
 

@@ -287,12 +287,14 @@ public:
     const TabulatedFunction* table_of(const Node& node) const;
     /// The same with the table's owner.
     std::shared_ptr<const TabulatedFunction> shared_table_of(const Node& node) const;
-    /// Of a call of a table: the derivative that it is, and whether the sides of its arguments are given, which
-    /// then stand behind the arguments (alembert/base/tabulated_function.hpp).
+    /// The position in `functions` of the one that a node with Op::unspecified calls.
+    std::size_t function_of(const Node& node) const;
+    /// Of a call of a table: the derivative that it is, and whether the intervals of its arguments are held, whose
+    /// numbers then stand behind the arguments (alembert/base/tabulated_function.hpp).
     struct TableCall {
         TabulatedFunction::Orders orders{};
         std::array<int, 2> argument{};  ///< nodes
-        std::array<int, 2> side{};      ///< nodes, if they are held
+        std::array<int, 2> number{};    ///< nodes, if they are held
         bool is_held = false;
         std::size_t arguments = 1;
     };

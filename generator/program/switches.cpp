@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -77,30 +78,57 @@ private:
         const bool is_function =
             call.orders[0] < TabulatedFunction::side_function && !call.is_held && !node.is_constant();
         const auto is_kinked = [&](std::size_t k) {
-            const std::size_t kinks = kinks_of(of, k, call.orders).size();
+            const std::size_t kinks = of.axes()[k].kinks.size();
             return kinks > 0 && kinks <= most_kinks && !old_[call.argument[k]].is_constant() &&
-                   !has_known_knots(old_, of, call, k);
+                   (of.tells_knots(k, call.orders) || !has_known_knots(old_, of, call, k));
         };
         bool any = false;
         for (std::size_t k = 0; k < call.arguments; ++k) any = any || (is_function && is_kinked(k));
         if (!any) return rewriting_.plain(id);
-        std::vector<int> args, sides;
+        std::vector<int> args, numbers;
         for (const int arg : node.args) args.push_back(rewriting_.image(arg));
-        for (std::size_t k = 0; k < call.arguments; ++k) {
-            // Where the function and its derivative have the same kinks, they have the same side.
-            const auto& kinks = of.axes()[k].kinks;
-            const int order = made.number(TabulatedFunction::side_order(
-                k, kinks[0] == kinks[1] ? TabulatedFunction::Orders{} : call.orders));
-            const int side = made.call(Op::unspecified, {args[0], order, args[2 * k + 2]});
-            sides.push_back(is_kinked(k) ? table_side(side, id, {node.args[0], order})
-                                         : made.call(Op::sign, {side}));
-        }
-        args.insert(args.end(), sides.begin(), sides.end());
+        for (std::size_t k = 0; k < call.arguments; ++k)
+            numbers.push_back(is_kinked(k) ? number_of_interval(id, k)
+                                           : made.number(static_cast<int>(TabulatedFunction::free)));
+        args.insert(args.end(), numbers.begin(), numbers.end());
         return made.call(Op::unspecified, args);
     }
 
+    /// The number of the interval between knots in which an argument lies, by the signs of functions that are zero
+    /// at the knots (alembert/base/tabulated_function.hpp). It is linear in each sign that changes at a jump.
+    int number_of_interval(int id, std::size_t axis) {
+        const Node& node = old_[id];
+        const Program::TableCall call = old_.table_call(node);
+        const TabulatedFunction& table = *old_.table_of(node);
+        const TableAxis& of = table.axes()[axis];
+        Program& made = rewriting_.made();
+        const int x = rewriting_.image(call.argument[axis]), function = rewriting_.image(node.args[0]);
+        const Rational half = Rational(1) / 2;
+        const auto side = [&](int g, int knot) {
+            return table_side(g, id, {node.args[0], static_cast<int>(axis), knot});
+        };
+        if (!table.tells_knots(axis, call.orders)) {
+            const int order = made.number(TabulatedFunction::side_order(axis));
+            return made.sum(half, {{-half, side(made.call(Op::unspecified, {function, order, x}), -1)}});
+        }
+        std::vector<Program::Term> passed;
+        int first = -1;
+        for (const int knot : of.kinks) {
+            int g = made.sum(-exact(of.at[static_cast<std::size_t>(knot)]), {{1, x}});
+            if (of.period > 0) {  // zero once in each period, with alternating signs
+                const int turns = made.product(1, {{made.pi(), 1}, {g, 1}});
+                g = made.call(Op::sin, {made.sum(0, {{1 / exact(of.period), turns}})});
+            }
+            passed.emplace_back(half, side(g, knot));
+            if (first < 0) first = passed.back().second;
+        }
+        const auto count = static_cast<int>(passed.size());
+        const int number = made.sum(Rational(count) / 2, passed);
+        return of.period > 0 ? made.sum(2 * count, {{1, made.product(1, {{first, 1}, {number, 1}})}}) : number;
+    }
+
     /// The step to the constraints looks at a second state, on the side of the first one.
-    int table_side(int g, int id, const std::pair<int, int>& of) {
+    int table_side(int g, int id, const std::array<int, 3>& of) {
         std::set<int>& known = sides_of_tables_[of];
         if (is_of_state_[static_cast<std::size_t>(id)] == 0 && known.size() == 1) return *known.begin();
         const int side = side_of(g, id);
@@ -141,8 +169,8 @@ private:
     Rewriting rewriting_;
     int first_;
     std::vector<char> is_of_state_;  // whether more than the step to the constraints needs a node
-    std::map<std::pair<int, int>, std::set<int>> sides_of_tables_;  // function, order of the side function → σ
-    std::map<int, int> places_;                                     // node → position
+    std::map<std::array<int, 3>, std::set<int>> sides_of_tables_;  // function, argument, knot → σ
+    std::map<int, int> places_;                                    // node → position
     std::vector<int> conditions_, functions_;
 };
 

@@ -7,6 +7,8 @@
 ///
 /// A Real says by `place_of` between which points it lies; one that cannot is refused.
 
+#include <cmath>
+
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "program/program.hpp"
@@ -18,10 +20,10 @@ template <typename Real, typename At>
 Real table_value(const TabulatedFunction& table, const Program::TableCall& call, const At& at) {
     if constexpr (requires(const Real& x) { place_of(x); }) {
         const Real* const x[] = {&at(call.argument[0]), call.arguments > 1 ? &at(call.argument[1]) : nullptr};
-        TabulatedFunction::Sides sides{};
-        for (std::size_t k = 0; call.is_held && k < call.arguments; ++k)
-            sides[k] = place_of(at(call.side[k])) < 0 ? -1 : 1;
-        return table.value<Real>(call.orders, {x[0], x[1]}, sides);
+        TabulatedFunction::Held held{TabulatedFunction::free, TabulatedFunction::free};
+        for (std::size_t k = 0; call.is_held && k < call.arguments; ++k) held[k] = place_of(at(call.number[k]));
+        for (std::size_t k = 0; call.is_held && call.arguments > 1 && k < 2; ++k) held[k] = std::round(held[k]);
+        return table.value<Real>(call.orders, {x[0], x[1]}, held);
     } else {
         throw ModelError(
             say("what is asked for is not found for functions of [tables], which are polynomials "

@@ -14,30 +14,32 @@
 
 namespace alembert {
 
-namespace {
-
-constexpr double closes_to = 1e-12;  // relative to a period or to the largest value
-
-std::vector<std::string> fields_of(std::string line) {
+std::vector<std::string> fields_in_line(std::string line, bool at_blanks) {
+    constexpr std::string_view around = " \t\r\"";
+    if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     line = line.substr(0, line.find('#'));
     while (!line.empty() && std::string_view(" \t\r").find(line.back()) != std::string_view::npos) line.pop_back();
-    if (line.empty()) return {};
+    if (line.find_first_not_of(" \t") == std::string::npos) return {};
     const bool has_signs = line.find_first_of(",;") != std::string::npos;
     std::vector<std::string> fields(1);
     for (const char c : line) {
         const bool is_blank = c == ' ' || c == '\t';
-        const bool divides = has_signs ? c == ',' || c == ';' : is_blank;
+        const bool divides = has_signs ? c == ',' || c == ';' : at_blanks && is_blank;
         if (!divides)
             fields.back() += c;
         else if (has_signs || !fields.back().empty())
             fields.emplace_back();
     }
     for (std::string& field : fields) {
-        field.erase(0, std::min(field.find_first_not_of(" \t"), field.size()));
-        while (!field.empty() && (field.back() == ' ' || field.back() == '\t')) field.pop_back();
+        field.erase(0, std::min(field.find_first_not_of(around), field.size()));
+        field.erase(field.find_last_not_of(around) + 1);
     }
     return fields;
 }
+
+namespace {
+
+constexpr double closes_to = 1e-12;  // relative to a period or to the largest value
 
 std::optional<double> number_in(const std::string& field) {
     if (field.empty()) return std::nullopt;
@@ -76,7 +78,7 @@ public:
         bool is_first = true;
         for (std::string typed; std::getline(text, typed);) {
             ++line;
-            const std::vector<std::string> fields = fields_of(typed);
+            const std::vector<std::string> fields = fields_in_line(typed, true);
             if (fields.empty()) continue;
             if (std::exchange(is_first, false)) {
                 if (begins_map(fields, arguments_)) {
@@ -88,8 +90,8 @@ public:
                     continue;
             }
             if (const std::string mistake = take(fields, line, typed); !mistake.empty()) return refused(mistake);
-            if (result_.rows.size() > most_points)
-                return refused(say("there are more than {} points, the limit for a table", most_points));
+            if (result_.rows.size() > most_table_points)
+                return refused(say("there are more than {} points, the limit for a table", most_table_points));
         }
         result_.are_lines = true;
         return std::move(result_);
@@ -101,9 +103,13 @@ private:
         std::vector<double> numbers;
         for (const std::string& field : fields)
             if (const auto value = number_in(field)) numbers.push_back(*value);
-        if (fields.size() != expected || numbers.size() != expected)
+        if (fields.size() != expected || numbers.size() != expected) {
+            const bool has_decimal_commas =
+                typed.find(';') != std::string::npos && typed.find(',') != std::string::npos;
             return say("line {} is {}; expected {} numbers with commas between, as the other lines have", line,
-                       in_quotes(typed.substr(0, 60)), expected);
+                       in_quotes(typed.substr(0, 60)), expected) +
+                   (has_decimal_commas ? say("; the decimal sign is a point") : "");
+        }
         if (const auto bad =
                 std::find_if(numbers.begin(), numbers.end(), [](double x) { return !std::isfinite(x); });
             bad != numbers.end())
@@ -153,6 +159,13 @@ public:
         }
         for (double& y : points_.values) y *= size(count());
         made_.table = std::make_shared<const TabulatedFunction>(std::move(points_));
+        const std::vector<double>& c = made_.table->coefficients();
+        if (!std::all_of(c.begin(), c.end(), [](double x) { return std::isfinite(x); })) {
+            made_.table = nullptr;
+            refuse(0,
+                   say("slopes between the points are too large for double precision; give values or distances of "
+                       "a usual size"));
+        }
         return made_;
     }
 

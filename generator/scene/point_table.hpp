@@ -15,7 +15,12 @@
 
 namespace alembert {
 
-constexpr std::size_t most_point_bytes = 32UL * 1024 * 1024, most_points = 500'000;
+constexpr std::size_t most_point_bytes = 32UL * 1024 * 1024, most_table_points = 500'000;
+
+/// The fields of a line between commas or semicolons, or between blanks where there are none of these and
+/// `at_blanks` is set; without blanks and quotes around them, a mark of byte order and what follows a #. None of a
+/// line in which nothing else stands.
+std::vector<std::string> fields_in_line(std::string line, bool at_blanks);
 
 struct PointRow {
     std::vector<double> numbers;  ///< the arguments and the value

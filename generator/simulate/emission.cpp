@@ -14,6 +14,7 @@
 #include "codegen/emit/casadi.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/standalone.hpp"
+#include "program/known_knots.hpp"
 #include "program/lower/frame_functions.hpp"
 #include "program/lower/operational_space.hpp"
 #include "program/lower/quick_times.hpp"
@@ -284,7 +285,15 @@ Emission emission(Scene scene, const EmissionOptions& options) {
                      .left_out = left_out_of(e.mechanism)};
     add_example(text, e);
     e.source = emit(program, text);
-    if (options.standalone) e.main = main_program(e, program, options.language);
+    if (options.standalone) {
+        e.main = main_program(e, program, options.language);
+        for (const std::string& name : tables_with_close_knots(program))
+            e.warn(
+                "left_out",
+                say("warning: the table '{}' has knots so close that steps of a program of its own may pass what "
+                    "is between them; in 'alembert simulate' steps end at each knot\n",
+                    name));
+    }
     if (options.casadi) e.casadi = casadi_functions(program, text);
     return e;
 }

@@ -182,8 +182,9 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     };
     system.on_change = [this, self](const ModeChange& change) {
         const auto k = static_cast<std::size_t>(change.index);
-        if (on_side_change)
-            on_side_change(change, self->contact.switching->names[k], self->compiled.jumps->frictions[k]);
+        const CompiledMode& of = self->compiled;
+        const bool is_knot = of.program[of.jumps->functions[k]].op == Op::unspecified;
+        if (on_side_change) on_side_change({change, of.sides[k], is_knot, of.jumps->frictions[k]});
     };
     system.on_begin = [this, self](const ModeChange& change) {
         if (on_side_begin)

@@ -55,10 +55,14 @@ public:
     /// accelerations at the start, and what the stages throw.
     LoadedMode& operator()(const std::vector<int>& closed);
 
-    /// Called with changes of the signs that a right-hand side holds constant, their names, and the frictions
-    /// whose sliding velocities have these signs; may be empty.
-    std::function<void(const ModeChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
-        on_side_change = {};
+    /// A change of a sign that a right-hand side holds constant.
+    struct SideChange {
+        const ModeChange& change;
+        const std::string& name;
+        bool is_knot;                                     ///< the function is a table at one of its knots
+        const std::vector<Switched::Rubbing>& frictions;  ///< whose sliding velocities have this sign
+    };
+    std::function<void(const SideChange&)> on_side_change = {};  ///< may be empty
     /// Called with the sides, other than sliding ones, on which the functions are where a phase begins; may be
     /// empty.
     std::function<void(const ModeChange&, const std::vector<Switched::Rubbing>&)> on_side_begin = {};

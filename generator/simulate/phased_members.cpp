@@ -8,6 +8,7 @@
 #include "alembert/ode/energy_error.hpp"
 #include "alembert/ode/running_extrema.hpp"
 #include "model/formalism/with_states.hpp"
+#include "program/known_knots.hpp"
 #include "simulate/run_contacts.hpp"
 
 namespace alembert {
@@ -40,10 +41,13 @@ Outcome outcome_of(const HybridMotion& motion, const Account& account, bool alon
 }  // namespace
 
 bool is_phased(const Mechanism& m, const Program& program) {
-    if (has_jumps(m) || !m.frictions.empty()) return true;
+    if (has_jumps(m) || !m.frictions.empty() || !tables_with_close_knots(program).empty()) return true;
     const std::optional<Switched> jumps = switched(program);
-    return jumps && std::any_of(jumps->functions.begin(), jumps->functions.end(),
-                                [&](int function) { return program[function].op == Op::sign; });
+    return jumps && std::any_of(jumps->functions.begin(), jumps->functions.end(), [&](int function) {
+               const Node& node = program[function];
+               return node.op == Op::sign || (node.op == Op::unspecified &&
+                                              program.table_of(node)->may_jump(program.table_call(node).orders));
+           });
 }
 
 PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, const MethodChoice& method,

@@ -19,8 +19,8 @@
 
 namespace alembert {
 
-/// Whether a motion has to be followed piece by piece. Functions that only bend (abs, min, max) are left to the
-/// control of the steps. `program` is that of the mechanism.
+/// Whether a motion has to be followed piece by piece. Functions that only bend (abs, min, max, tables
+/// without close knots) are left to the control of the steps. `program` is that of the mechanism.
 bool is_phased(const Mechanism& mechanism, const Program& program);
 
 class PhasedMembers {

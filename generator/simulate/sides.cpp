@@ -82,8 +82,7 @@ std::string text_of(const Program& p, int id, int depth = 0) {
             std::string text;
             for (std::size_t k = 0; k < call.arguments; ++k)
                 text += (text.empty() ? "" : ", ") + text_of(p, call.argument[k], 0);
-            const auto function = static_cast<std::size_t>(cln::double_approx(p[node.args[0]].number));
-            return fmt::format("{}({})", p.functions.at(function), text);
+            return fmt::format("{}({})", p.functions.at(p.function_of(node)), text);
         }
         default: {
             std::string text;

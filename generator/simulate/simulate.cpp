@@ -16,6 +16,7 @@
 #include "program/lower/quick_times.hpp"
 #include "simulate/consistent_mode.hpp"
 #include "simulate/kept_energy.hpp"
+#include "simulate/mass_watch.hpp"
 #include "simulate/method.hpp"
 #include "simulate/regularization.hpp"
 #include "simulate/run_contacts.hpp"
@@ -38,6 +39,7 @@ State<double> state_at(State<double> state, const Failure& failure) {
 /// The quantities that are watched at every step of the main run, but not in the runs that estimate its error.
 struct Watch {
     EnergyError energy_error;
+    std::optional<TableWatch> tables = {};
     PoseWatch poses = {};
     double constraint_drift = 0;
     long steps = 0;
@@ -61,6 +63,7 @@ public:
         start_ = start_of(run_.mechanism);
         run_.adjusted = assemble(start_, run_.mechanism, lower_constraints(run_.mechanism), {});
         first_ = state_of(start_, run_.mechanism, run_.equations);
+        if (changes_masses(run_.scene)) masses_.emplace(run_, start_.parameters, first_.qdot.size());
         if (!wishes_.sensitivity.empty())
             sensitivities_.emplace(run_, program, start_, wishes_.sensitivity, wishes_.sensitivity_of);
         choice_ = method_for(wishes_, run_, program, start_);
@@ -77,6 +80,7 @@ public:
             compiled, start_, first_,
             [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                 reach(state);
+                if (masses_) (*masses_)(t, state);
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
         tell_sides(modes, watch);
@@ -90,12 +94,14 @@ public:
         quick_times_ = quick_times(free.program, with_held_parameters(start_.parameters, free.program),
                                    options_.start, options_.start + options_.duration);
         modes.shorten_steps(quick_times_);
+        watch.tables = table_watch(free);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
         contacts_.kicks.on_set = [&](double t, const double* before, const double* after) {
             if (watch.is_over) return;
             set_at_ = t;
+            if (watch.tables) watch.tables->jump();
             const std::size_t size = 2 * run_.mechanism.q.size() + run_.mechanism.states.size();
             const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + size}),
                                       b = as_integrated(contacts_.kicks, t, {after, after + size});
@@ -105,6 +111,7 @@ public:
         integrate(modes);
         if (watch.near_lock && !run_.is_regularized && take_quaternion(modes)) {
             watch = fresh_watch();
+            watch.tables = table_watch(free);
             integrate(modes);
             run_.chart_frame = angles_->name(run_.scene).text;
             run_.chart_passes = charts_->passes();
@@ -126,11 +133,12 @@ public:
 private:
     /// What friction and the sides of functions do along the motion, until `watch` is over.
     void tell_sides(LoadedModes& modes, const Watch& watch) {
-        modes.on_side_change = [this, &watch](const ModeChange& change, const std::string& name,
-                                              const std::vector<Switched::Rubbing>& frictions) {
+        modes.on_side_change = [this, &watch](const LoadedModes::SideChange& side) {
             if (watch.is_over) return;
-            if (frictions.empty()) run_.side_changes.push_back({change.time, name, change.kind});
-            for (const Switched::Rubbing& one : frictions)
+            const ModeChange& change = side.change;
+            if (side.frictions.empty())
+                run_.side_changes.push_back({change.time, side.name, change.kind, side.is_knot});
+            for (const Switched::Rubbing& one : side.frictions)
                 note(run_.friction_changes,
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
@@ -180,6 +188,7 @@ private:
               std::span<const double> rate) const {
         watch.near_lock = watch.near_lock || (angles_ && angles_->evenness(state.data()) < to_quaternion);
         watch.energy_error(mode.module.table(), mode.par, t, state, rate);
+        if (watch.tables) (*watch.tables)(t, state);
         if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
         if (mode.contact.system.project)
             watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
@@ -252,6 +261,12 @@ private:
     Watch fresh_watch() const {
         return {.energy_error =
                     EnergyError(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
+    }
+
+    TableWatch table_watch(const LoadedMode& free) const {
+        TableWatch tables(free.program, with_held_parameters(start_.parameters, free.program));
+        tables(start_.t, initial_state());
+        return tables;
     }
 
     /// Prepares the run with a quaternion near gimbal lock; false if the scene does not allow it.
@@ -342,7 +357,8 @@ private:
              .singular = most_singular(run_.motion, free, watch.poses),
              .precision = fixed ? run_.estimate->value.value_or(0) : options_.tolerance,
              .fixed_step = fixed ? options_.step : 0,
-             .inputs = quick_times_});
+             .inputs = quick_times_,
+             .passed = watch.tables ? watch.tables->passed() : std::nullopt});
         run_.timings.estimate = process_seconds() - begin;
     }
 
@@ -392,6 +408,7 @@ private:
             last.compiled.jumps->has_frictions())
             there = jamming_friction(*last.compiled.jumps, state);
         state.parameters = with_held_parameters(std::move(state.parameters), last.program);
+        if (!there && masses_) there = masses_->used_up({options_.start, initial_}, {failure.time, failure.state});
         if (!there) there = failure_at(last.derived, state);
         return translated_from_library(failure.message) + (there ? say("\n  there: {}", *there) : "");
     }
@@ -403,6 +420,7 @@ private:
     Energy energy_;
     Start start_;
     State<double> first_;
+    std::optional<MassWatch> masses_;  ///< where masses change
     MethodChoice choice_;
     Options options_;
     std::vector<InputTimeScale> quick_times_;

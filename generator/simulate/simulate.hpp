@@ -59,11 +59,12 @@ struct Run : Derived {
         {};  ///< a row for each event of `motion`, if any event of the scene records something
     std::vector<double> final_states = {};   ///< of the scene's first-order states, in the order of the scene
     std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
-    /// A change of a sign in the right-hand side: of |x|, min, max, sign.
+    /// A change of a sign in the right-hand side: of |x|, min, max, sign, or of the piece of a table at a knot.
     struct Side {
         double time;
         std::string name;
         ModeChange::Kind kind;
+        bool is_knot;
     };
     std::vector<Side> side_changes = {};
     /// A contact with dry friction begins to stick or to slip, or slips the other way.

@@ -94,6 +94,11 @@ std::vector<std::string> distrust_reasons(const Evidence& e) {
                 "take shorter ones, or a method "
                 "that chooses them",
                 q->step, (q->from + q->to) / 2, e.fixed_step));
+    if (e.passed)
+        reasons.push_back(
+            say("a step that ends at t = {:.6g} passes a feature of the table '{}' near {:.6g} at once; a "
+                "max_step in [simulation] makes steps shorter",
+                e.passed->time, e.passed->table, e.passed->near));
     return reasons;
 }
 

@@ -17,6 +17,7 @@
 /// | constraints, relative to the largest coordinate or rate | 0.01 | the state itself is off by that much |
 /// | what a singular pose nearer than 0.1 makes of an error | 0.01 | see below |
 /// | a fixed step, relative to the time in which an input changes | 2 pieces | no stage need have met it |
+/// | steps that pass a feature of a long table at once | none | likewise |
 ///
 /// Poses where the description is singular (gimbal lock, poles of spherical coordinates): there M, scaled to ones
 /// on its diagonal, has an eigenvalue that vanishes as the square of the distance. δ², its smallest value during
@@ -33,6 +34,7 @@
 #include "alembert/ode/input_time_scale.hpp"
 #include "simulate/estimate.hpp"
 #include "simulate/loaded_modes.hpp"
+#include "simulate/table_watch.hpp"
 
 namespace alembert {
 
@@ -46,6 +48,7 @@ struct Evidence {
     double precision = 0;    ///< e above
     double fixed_step = 0;   ///< in s; 0 if the method chose its steps
     std::vector<InputTimeScale> inputs = {};
+    std::optional<TableWatch::Passed> passed = {};
 };
 
 /// The reasons as sentences without capital and full stop, the most important first. If there are none, the run is

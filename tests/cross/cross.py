@@ -224,7 +224,7 @@ class Examination:
         if not self.scene.get("friction") and self.options.compile(self.rng):
             version, steps = self.rng.choice([2, 3]), self.rng.choice([1, 7, 40])
             ways += [(f"fmu {version}", lambda: self.door.unit(version, self.q, duration, tolerance, steps, self.z))]
-            if not pieces and "speeds" not in self.scene:
+            if not pieces and "speeds" not in self.scene and not scenes.has_close_knots(self.scene):
                 ways += [("standalone C", lambda: self.door.standalone(self.q, duration, tolerance, self.z))]
         if self.options.package and self.rng.random() < 0.3:
             ways += [("Python", lambda: self.door.in_python(self.options.package))]

@@ -386,7 +386,8 @@ def _states(d, rng):
 
 
 def _tables(d, rng):
-    """A force by points over a coordinate that starts among them, by draws of their own."""
+    """A force by points over a coordinate that starts among them, by draws of their own: also over its rate or a second
+    argument, with a period, and with a pulse that no step may pass."""
     near = [name for name, e in d.scene["coordinates"].items() if abs(e.get("initial", e.get("guess", 1))) < 10]
     if not near or rng.random() >= 0.3:
         return
@@ -396,10 +397,33 @@ def _tables(d, rng):
     for _ in range(rng.randint(4, 8)):
         points.append([float(f"{x:.6g}"), number(rng, -1, 1)])
         x += number(rng, 0.2, 0.9)
-    how = rng.choice(["linear", "cubic", "pchip"])
-    d.scene["tables"] = {"by_points": {"arguments": ["s"], "interpolation": how, "outside": "line", "points": points}}
+    how, argument = rng.choice(["linear", "cubic", "pchip"]), name
+    table = {"arguments": ["s"], "interpolation": how, "outside": "line", "points": points}
+    kind = rng.choice(["plain", "plain", "narrow", "grid", "rate", "period"])
+    if kind == "narrow":
+        table["interpolation"], k = "linear", rng.randint(1, len(points) - 1)
+        width = 10 ** -rng.uniform(2, 4)
+        middle = (points[k - 1][0] + points[k][0]) / 2
+        base = (points[k - 1][1] + points[k][1]) / 2
+        points[k:k] = [[middle, base], [middle + width, base + number(rng, 0.02, 0.1) / width], [middle + 2 * width, base]]
+    elif kind == "grid":
+        table.update(arguments=["s", "r"], interpolation="linear")
+        table["points"] = [[x, r, float(f"{y * (1 + 0.3 * r):.6g}")] for x, y in points for r in (-0.7, 0.2, 1.5)]
+        argument = f"{name}, {rng.choice(['t', name + chr(39)])}"
+    elif kind == "rate":
+        argument = f"{name}'"
+    elif kind == "period":
+        del table["outside"]
+        table["period"] = float(f"{points[-1][0] - points[0][0] + number(rng, 0.2, 0.9):.6g}")
+    d.scene["tables"] = {"by_points": table}
     forces = d.scene.setdefault("forces", {})
-    forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*by_points({name})"
+    forces[name] = (f"{forces[name]} " if name in forces else "") + f"- {number(rng, 0.1, 1)}*by_points({argument})"
+
+
+def has_close_knots(scene):
+    """Whether a table has knots that only a run which ends steps there is sure to see."""
+    return any(b[0] - a[0] < 0.03 for table in scene.get("tables", {}).values() if len(table["arguments"]) == 1
+               for a, b in zip(table["points"], table["points"][1:]))
 
 
 def _modes(d, rng):

@@ -149,7 +149,7 @@ private:
             if (!table.has(k, value_[call.argument[k]].to_double())) return std::nullopt;
         std::map<int, ExactNumber> at;
         for (std::size_t k = 0; k < call.arguments; ++k)
-            for (const int id : {call.argument[k], call.side[k]}) at[id] = ExactNumber(value_[id]);
+            for (const int id : {call.argument[k], call.number[k]}) at[id] = ExactNumber(value_[id]);
         return table_value<ExactNumber>(table, call, [&](int id) -> const ExactNumber& { return at.at(id); }).n;
     }
 

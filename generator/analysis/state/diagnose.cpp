@@ -165,12 +165,10 @@ std::optional<std::string> ended_table(const Program& program, const State<doubl
             const double low = axis.at.front(), high = axis.at.back(), x = value[call.argument[k]],
                          far = close * (high - low);
             if (axis.period > 0 || !std::isfinite(x) || (x > low + far && x < high - far)) continue;
-            const auto function =
-                static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(program[node.args[0]].number)));
             return say(
                 "an argument of the table '{}' is {:.6g}, and its points end at {:.6g}; give more points, or "
                 "outside = \"hold\" or \"line\"",
-                program.functions[function], x, x <= low + far ? low : high);
+                program.functions[program.function_of(node)], x, x <= low + far ? low : high);
         }
     }
     return std::nullopt;

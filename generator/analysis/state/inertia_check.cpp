@@ -64,6 +64,22 @@ std::vector<Diagnostic> InertiaCheck::findings(const State<double>& state) const
     return found;
 }
 
+std::optional<std::string> InertiaCheck::used_up(const State<double>& start, const State<double>& now) const {
+    constexpr double next_to_nothing = 1e-9;
+    const std::vector<double> before = interpret(program_, start), value = interpret(program_, now);
+    std::size_t next = 0;
+    for (const MassElement& element : m_.masses) {
+        const int node = nodes_[next];
+        next += element.rotation ? 10 : 1;
+        if (value[node] < next_to_nothing * before[node])
+            return say(
+                "the mass of {} is {:.3g}, of {:.6g} at the start; let it stop falling before nothing is left, "
+                "as with max(0, …) in its rate",
+                shown_label(element.origin), value[node], before[node]);
+    }
+    return std::nullopt;
+}
+
 void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I,
                                double given) const {
     const Place place = body.inertia->place;

@@ -24,6 +24,9 @@ public:
     /// parameters, and q if moments are given about another point.
     std::vector<Diagnostic> findings(const State<double>& state) const;
 
+    /// What says that next to nothing is left of a mass that there was at the start; nothing if all are left.
+    std::optional<std::string> used_up(const State<double>& start, const State<double>& now) const;
+
 private:
     /// The place in the scene: that of the body's inertia, else that of the name of the body or the particle.
     Place place_of(const Origin& origin) const;

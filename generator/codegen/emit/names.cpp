@@ -80,7 +80,10 @@ Names::Names(CodeLanguage language) {
 
 bool Names::take(std::string& name) {
     if (is_reserved(name)) name += '_';
-    if (name.starts_with("table_")) name.insert(5, 1, 's');  // functions by points begin so (table_text.hpp)
+    // Functions by points begin with "table_" or "table0_" (table_text.hpp).
+    if (name.starts_with("table") && name.size() > 5 &&
+        (name[5] == '_' || std::isdigit(static_cast<unsigned char>(name[5])) != 0))
+        name.insert(5, 1, 's');
     return taken_.insert(name).second;
 }
 

@@ -3,7 +3,6 @@
 // held back at the ends, the line beyond them is P(y) + P'(y)(x − y), which between them is P(x).
 #include "codegen/emit/table_text.hpp"
 
-#include <cln/integer.h>
 #include <fmt/format.h>
 
 #include <kainjow/mustache.hpp>
@@ -28,8 +27,8 @@ bool is_side(const Call& call) {
 }
 
 std::string base_name(const Program& p, const Node& node) {
-    const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(p[node.args[0]].number)));
-    return "table_" + ascii_identifier(p.functions.at(index));
+    const std::size_t index = p.function_of(node);
+    return fmt::format("table{}_{}", index, ascii_identifier(p.functions.at(index)));
 }
 
 class TableText {
@@ -95,26 +94,21 @@ private:
         for (std::size_t k = 0; k < table.arguments(); ++k) {
             const TableAxis& axis = table.axes()[k];
             text += list(fmt::format("{}_at{}", base, suffix(table, k)), axis.at, "double");
-            for (int set = 0; set < 2 && !is_javascript(); ++set)
-                if (!axis.kinks[set].empty() && is_used(base, k, set))
-                    text += list(kinks_name(base, k, set), axis.kinks[set], "int");
+            if (!is_javascript() && !axis.kinks.empty() && is_used(base, k))
+                text += list(kinks_name(base, k), axis.kinks, "int");
         }
         return text + list(base + "_c", table.coefficients(), "double");
     }
 
     /// Whether a call is held by these kinks, or has them as zeros.
-    bool is_used(const std::string& base, std::size_t axis, int set) const {
+    bool is_used(const std::string& base, std::size_t axis) const {
         std::vector<int> roots;
         for (const Root& root : p_.roots) roots.push_back(root.node);
         for (const int id : p_.needed(roots)) {
             const Node& node = p_[id];
             if (node.op != Op::unspecified || base_name(p_, node) != base) continue;
             const Call call = p_.table_call(node);
-            const int orders = call.orders[0] + call.orders[1];
-            if (is_side(call)
-                    ? (call.orders[0] - TabulatedFunction::side_function) / 10 == 2 * set + static_cast<int>(axis)
-                    : call.is_held && (orders > 0 ? 1 : 0) == set)
-                return true;
+            if (is_side(call) ? TabulatedFunction::side_axis(call.orders[0]) == axis : call.is_held) return true;
         }
         return false;
     }
@@ -122,8 +116,13 @@ private:
     static std::string suffix(const TabulatedFunction& table, std::size_t axis) {
         return table.arguments() > 1 ? std::to_string(axis + 1) : "";
     }
-    static std::string kinks_name(const std::string& base, std::size_t axis, int set) {
-        return fmt::format("{}_kinks{}{}", base, axis + 1, set > 0 ? "_of_slope" : "");
+    static std::string kinks_name(const std::string& base, std::size_t axis) {
+        return fmt::format("{}_kinks{}", base, axis + 1);
+    }
+    /// The positions of the knots at which a derivative jumps, and their number.
+    static std::string kinks_of(const std::string& base, const TabulatedFunction& table, std::size_t axis) {
+        const std::size_t count = table.axes()[axis].kinks.size();
+        return fmt::format("{}, {}", count > 0 ? kinks_name(base, axis) : "0", count);
     }
 
     /// "const Real u = …;"
@@ -227,15 +226,13 @@ private:
     std::string held_place(const std::string& base, const TabulatedFunction& table, const Call& call,
                            std::size_t a) const {
         const TableAxis& axis = table.axes()[a];
-        const int set = call.orders[0] + call.orders[1] > 0 ? 1 : 0;
         const std::string n = std::to_string(a + 1), at = base + "_at" + suffix(table, a),
                           pieces = std::to_string(axis.at.size() - 1), period = shortest(axis.period);
-        const bool has_kinks = !axis.kinks[set].empty();
-        std::string text = local("piece" + n,
-                                 fmt::format("table_held({}, {}, {}, {}, {}, {}, {})", at, pieces, period,
-                                             has_kinks ? kinks_name(base, a, set) : "0", axis.kinks[set].size(),
-                                             as_double("x" + n), as_double("side" + n)),
-                                 "long");
+        std::string text = local(
+            "piece" + n,
+            fmt::format("table_held({}, {}, {}, {}, {}, {}, {})", at, pieces, period, kinks_of(base, table, a),
+                        table.cycle(a, call.orders), as_double("x" + n), as_double("number" + n)),
+            "long");
         if (axis.period > 0)
             return text +
                    local("k" + n, fmt::format("(int)(piece{0} - table_below(piece{0}, {1}) * {1})", n, pieces),
@@ -262,7 +259,7 @@ private:
         std::vector<std::string> names;
         for (std::size_t k = 0; k < call.arguments; ++k) names.push_back(fmt::format("x{}", k + 1));
         for (std::size_t k = 0; call.is_held && k < call.arguments; ++k)
-            names.push_back(fmt::format("side{}", k + 1));
+            names.push_back(fmt::format("number{}", k + 1));
         std::string arguments;
         for (const std::string& one : names)
             arguments += (arguments.empty() ? "" : ", ") + (is_javascript()                ? one
@@ -276,6 +273,7 @@ private:
         const std::string end = language_ == CodeLanguage::cpp ? "    }\n}\n" : "}\n";
         if (language_ == CodeLanguage::cpp) text += lanes(name, names);
         if (is_side(call)) return text + side(base, table, call) + end;
+        if (call.is_held && call.arguments == 1) text += mixture(name);
         if (call.orders[0] > table.degree() || call.orders[1] > table.degree())
             return text + (call.arguments == 1 ? "    return 0 * x1;\n" : "    return 0 * (x1 + x2);\n") + end;
         for (std::size_t k = 0; k < call.arguments; ++k) text += place(base, table, call, k);
@@ -300,13 +298,23 @@ private:
             name, each);
     }
 
+    /// Between two numbers the value is that of both intervals together.
+    std::string mixture(const std::string& name) const {
+        const bool is_c = language_ == CodeLanguage::c;
+        const std::string share = is_c ? "share" : "Real(share)";
+        return local("whole", floor_of("number1"), "double") +
+               local("share", as_double("number1") + " - whole", "double") +
+               fmt::format("    if (share > 0)\n        return (1 - {0}) * {1}(x1, {2}) + {0} * {1}(x1, {3});\n",
+                           share, name, is_c ? "(Real)whole" : "Real(whole)",
+                           is_c ? "(Real)(whole + 1)" : "Real(whole + 1)");
+    }
+
     std::string side(const std::string& base, const TabulatedFunction& table, const Call& call) const {
-        const int code = call.orders[0] - TabulatedFunction::side_function, set = code / 20, times = code % 10;
-        const auto a = static_cast<std::size_t>(code / 10 % 2);
+        const int times = call.orders[0] % 10;
+        const std::size_t a = TabulatedFunction::side_axis(call.orders[0]);
         const TableAxis& axis = table.axes()[a];
-        return fmt::format("    return Real(table_side({}_at{}, {}, {}, {}, {}, {}, {}));\n", base,
-                           suffix(table, a), axis.at.size() - 1, shortest(axis.period),
-                           axis.kinks[set].empty() ? "0" : kinks_name(base, a, set), axis.kinks[set].size(), times,
+        return fmt::format("    return Real(table_side({}_at{}, {}, {}, {}, {}, {}));\n", base, suffix(table, a),
+                           axis.at.size() - 1, shortest(axis.period), kinks_of(base, table, a), times,
                            as_double("x1"));
     }
 

@@ -3,8 +3,8 @@
 
 /// Functions by points in emitted code: their numbers, and a function for each derivative that the program calls.
 ///
-///     table_functions(program, CodeLanguage::c);     // "static const double table_f_at[] = {0, 1, 3}; …"
-///     table_call(program, node);                     // "table_f_1": the first derivative of f
+///     table_functions(program, CodeLanguage::c);     // "static const double table0_f_at[] = {0, 1, 3}; …"
+///     table_call(program, node);                     // "table0_f_1": the first derivative of f
 
 #include <string>
 
@@ -16,8 +16,9 @@ namespace alembert {
 /// Empty if no root of the program needs one. Throws ModelError for a function that the scene leaves open.
 std::string table_functions(const Program& program, CodeLanguage language);
 
-/// The name of the function to call with the node's arguments, and with sides behind them where it is held. Names
-/// of scenes that begin so get another letter (Names).
+/// The name of the function to call with the node's arguments, and with the numbers of intervals behind them where
+/// they are held. The position of the table makes it differ from all others; names of scenes that begin so get
+/// another letter (Names).
 std::string table_call(const Program& program, const Node& node);
 
 }  // namespace alembert

@@ -79,7 +79,7 @@ std::string Writer::text(int id, int precedence) {
         const Program::TableCall call = program_.table_call(node);
         std::vector<int> args(call.argument.begin(), call.argument.begin() + static_cast<long>(call.arguments));
         if (call.is_held)
-            args.insert(args.end(), call.side.begin(), call.side.begin() + static_cast<long>(call.arguments));
+            args.insert(args.end(), call.number.begin(), call.number.begin() + static_cast<long>(call.arguments));
         for (const int arg : args) result += (result.ends_with('(') ? "" : ", ") + text(arg, additive);
         result += ")";
     } else {

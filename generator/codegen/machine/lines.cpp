@@ -362,20 +362,21 @@ private:
                                .function = function_of(node.op)})};
     }
 
-    /// A call with the address of the table's call in the bits of its first argument; sides that are held choose
-    /// another one.
+    /// A call with the address of the table's call in the bits of its first argument; intervals that are held
+    /// choose another one.
     int table(const Node& node) {
         const Program::TableCall call = p_.table_call(node);
         int of = number(bits_for_code(p_.table_of(node)->call(call.orders, call.is_held)));
-        for (std::size_t k = 0; call.is_held && k < call.arguments; ++k)
+        for (std::size_t k = 0; call.is_held && call.arguments > 1 && k < call.arguments; ++k)
             of = add({.kind = Line::Kind::call,
-                      .of = {of, whole(this->of(call.side[k])), -1},
+                      .of = {of, whole(this->of(call.number[k])), -1},
                       .function = reinterpret_cast<const void*>(held_for_code)});
         const int x = whole(this->of(call.argument[0]));
         if (call.arguments == 1)
             return add({.kind = Line::Kind::call,
-                        .of = {of, x, -1},
-                        .function = reinterpret_cast<const void*>(value_for_code)});
+                        .of = {of, x, call.is_held ? whole(this->of(call.number[0])) : -1},
+                        .function = call.is_held ? reinterpret_cast<const void*>(held_value_for_code)
+                                                 : reinterpret_cast<const void*>(value_for_code)});
         return add({.kind = Line::Kind::call,
                     .of = {of, x, whole(this->of(call.argument[1]))},
                     .function = reinterpret_cast<const void*>(value_of_two_for_code)});

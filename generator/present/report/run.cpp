@@ -182,25 +182,25 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
     return result;
 }
 
-std::string word(ModeChange::Kind kind) {
-    switch (kind) {
+std::string word(const Run::Side& side) {
+    switch (side.kind) {
         case ModeChange::Kind::sliding:
-            return say("stays zero");
+            return side.is_knot ? say("stays at a knot") : say("stays zero");
         case ModeChange::Kind::leaving:
-            return say("leaves zero");
+            return side.is_knot ? say("leaves a knot") : say("leaves zero");
         default:
-            return say("changes sign");
+            return side.is_knot ? say("passes a knot") : say("changes sign");
     }
 }
 
-const char* event_name(ModeChange::Kind kind) {
-    switch (kind) {
+const char* event_name(const Run::Side& side) {
+    switch (side.kind) {
         case ModeChange::Kind::sliding:
             return "sliding";
         case ModeChange::Kind::leaving:
             return "leaving";
         default:
-            return "crossing";
+            return side.is_knot ? "knot" : "crossing";
     }
 }
 
@@ -208,7 +208,7 @@ std::string text_of(const std::vector<Run::Side>& changes) {
     constexpr std::size_t most = 20;
     std::string page;
     for (std::size_t k = 0; k < std::min(most, changes.size()); ++k)
-        put(page, "t = {:.15g}: {} {}\n", changes[k].time, changes[k].name, word(changes[k].kind));
+        put(page, "t = {:.15g}: {} {}\n", changes[k].time, changes[k].name, word(changes[k]));
     if (changes.size() > most) say_on(page, "… and {} such changes more\n", changes.size() - most);
     return page;
 }
@@ -389,7 +389,7 @@ Json as_json(const Run& run) {
     if (energy.set_change) result["set_change"] = *energy.set_change;
     for (const Run::Side& change : run.side_changes)
         result["switches"].push_back(
-            {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});
+            {{"time", change.time}, {"name", change.name}, {"event", event_name(change)}});
     for (const ChartPass& pass : run.chart_passes)
         result["charts"].push_back({{"frame", run.chart_frame}, {"begin", pass.begin}, {"end", pass.end}});
     if (!run.contacts.empty() || !run.mechanism.frictions.empty()) result["contacts"] = contacts_of(run);

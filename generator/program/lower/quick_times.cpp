@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "program/known_knots.hpp"
@@ -55,7 +56,7 @@ struct KnownCalls {
                 const Program::TableCall call = program.table_call(node);
                 for (std::size_t k = 0; k < call.arguments; ++k)
                     if (has_known_knots(program, *program.table_of(node), call, k)) {
-                        calls.push_back({program.shared_table_of(node), call.orders, call.argument[k], k});
+                        calls.push_back({program.shared_table_of(node), call.argument[k], k});
                         contains = true;
                     }
             }
@@ -65,7 +66,6 @@ struct KnownCalls {
 
     struct One {
         std::shared_ptr<const TabulatedFunction> table;
-        TabulatedFunction::Orders orders;
         int argument;
         std::size_t axis;
     };
@@ -73,11 +73,17 @@ struct KnownCalls {
     std::set<int> above;
 };
 
-/// The times between at which one of the calls is at a knot, in order.
-std::vector<double> times_of_knots(const Program& program, const KnownCalls& known,
-                                   const std::vector<double>& parameters, double start, double end) {
+struct TimesOfKnots {
+    std::vector<double> times = {};  ///< in order
+    double longest = HUGE_VAL;       ///< of steps, where there are too many times
+};
+
+/// The times between at which one of the calls is at a knot. Of calls with millions of them no step passes two.
+TimesOfKnots times_of_knots(const Program& program, const KnownCalls& known, const std::vector<double>& parameters,
+                            double start, double end) {
     constexpr double most = 1e6;
-    std::vector<double> times;
+    TimesOfKnots result;
+    std::vector<double>& times = result.times;
     for (const KnownCalls::One& one : known.calls) {
         Tape<double> tape(program, {one.argument}, parameters);
         double first = 0, last = 0;
@@ -87,10 +93,17 @@ std::vector<double> times_of_knots(const Program& program, const KnownCalls& kno
         const double low = std::min(first, last), high = std::max(first, last);
         const auto turn_of = [&](double x) { return std::floor((x - axis.at.front()) / axis.period); };
         const double turns = axis.period > 0 ? turn_of(high) - turn_of(low) + 1 : 1;
-        const std::vector<int>& kinks = kinks_of(*one.table, one.axis, one.orders);
-        if (!(high > low) || !(turns * static_cast<double>(kinks.size()) < most)) continue;
+        if (!(high > low)) continue;
+        if (!(turns * static_cast<double>(axis.kinks.size()) < most)) {
+            for (std::size_t k = 1; k < axis.kinks.size(); ++k) {
+                const double gap = axis.at[static_cast<std::size_t>(axis.kinks[k])] -
+                                   axis.at[static_cast<std::size_t>(axis.kinks[k - 1])];
+                result.longest = std::min(result.longest, gap * (end - start) / (high - low));
+            }
+            continue;
+        }
         for (double turn = 0; turn < turns; ++turn)
-            for (const int kink : kinks) {
+            for (const int kink : axis.kinks) {
                 double x = axis.at[static_cast<std::size_t>(kink)];
                 if (axis.period > 0) x += (turn_of(low) + turn) * axis.period;
                 const double t = start + (end - start) * ((x - first) / (last - first));
@@ -99,7 +112,26 @@ std::vector<double> times_of_knots(const Program& program, const KnownCalls& kno
     }
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
-    return times;
+    return result;
+}
+
+/// No step is longer than this.
+std::vector<InputTimeScale> with_longest(std::vector<InputTimeScale> quick, double longest, double start,
+                                         double end) {
+    if (!(longest < end - start)) return quick;
+    std::vector<InputTimeScale> result;
+    const auto until = [&](double to) {
+        if (start < to) result.push_back({.from = start, .to = to, .enter = longest, .step = longest});
+    };
+    for (InputTimeScale q : quick) {
+        until(q.from);
+        if (q.from < q.to && !q.is_switch)
+            q.step = std::min(q.step, longest), q.enter = std::min(q.enter, longest);
+        result.push_back(q);
+        start = std::max(start, q.to);
+    }
+    until(end);
+    return result;
 }
 
 /// A step that begins earlier ends at each of these times, also where they lie in intervals that are quick.
@@ -126,19 +158,39 @@ std::vector<InputTimeScale> with_ends_at(std::vector<InputTimeScale> quick, cons
     return result;
 }
 
+/// Functions that may be quick although the table in them is not, as exp(−((u(t) − a)/w)²), and what they take.
+struct QuickOfTables {
+    QuickOfTables(const Program& program, const std::vector<int>& inputs, const std::set<int>& above_tables) {
+        for (const int id : inputs) {
+            const Node& node = program[id];
+            const bool is_function = node.op != Op::sum && node.op != Op::product && node.op != Op::unspecified;
+            if (!above_tables.contains(id) || !is_function) continue;
+            functions.push_back(id);
+            for (const int arg : node.args)
+                if (above_tables.contains(arg)) arguments.push_back(arg);
+        }
+    }
+    std::vector<int> functions, arguments;
+};
+
 class Search {
 public:
-    Search(const Program& program, std::vector<int> inputs, const std::vector<double>& parameters, double start,
-           double end)
-        : tape_(program, std::move(inputs), parameters), start_(start), end_(end) {}
+    /// `marks` are looked at for zeros and turning points alone.
+    Search(const Program& program, std::vector<int> inputs, const std::vector<int>& marks,
+           const std::vector<double>& parameters, double start, double end)
+        : ranges_(inputs.size()),
+          tape_(program, joined(std::move(inputs), marks), parameters),
+          start_(start),
+          end_(end) {}
 
-    std::vector<InputTimeScale> go() {
+    /// Nothing if it would take too long.
+    std::optional<std::vector<InputTimeScale>> go() {
         for (int i = 0; i <= first_pieces; ++i) known_.push_back(at(start_ + (end_ - start_) * i / first_pieces));
         mark();
         std::sort(known_.begin(), known_.end(), [](const Sample& a, const Sample& b) { return a.t < b.t; });
         measure_ranges();
         divide(start_, end_);
-        if (is_over_budget()) return {};
+        if (is_over_budget()) return std::nullopt;
         join();
         std::vector<InputTimeScale> result;
         double before = 0;
@@ -155,10 +207,16 @@ public:
                               .step = piece.is_switch ? length : reach,
                               .is_switch = piece.is_switch});
         }
-        return is_over_budget() ? std::vector<InputTimeScale>() : result;
+        if (is_over_budget()) return std::nullopt;
+        return result;
     }
 
 private:
+    static std::vector<int> joined(std::vector<int> list, const std::vector<int>& more) {
+        list.insert(list.end(), more.begin(), more.end());
+        return list;
+    }
+
     struct Sample {
         double t;
         std::vector<double> values;
@@ -233,7 +291,7 @@ private:
     }
 
     void measure_ranges() {
-        ranges_.assign(tape_.size(), 0);
+        std::fill(ranges_.begin(), ranges_.end(), 0);
         for (std::size_t k = 0; k < ranges_.size(); ++k) {
             double low = HUGE_VAL, high = -HUGE_VAL;
             for (const Sample& sample : known_) {
@@ -302,10 +360,10 @@ private:
         pieces_ = std::move(joined);
     }
 
+    std::vector<double> ranges_;  ///< of the inputs
     Tape<double> tape_;
     double start_, end_;
     std::vector<Sample> known_;
-    std::vector<double> ranges_;
     std::vector<Piece> pieces_;
     long evaluations_ = 0;
 };
@@ -317,10 +375,18 @@ std::vector<InputTimeScale> quick_times(const Program& program, const std::vecto
     if (!(end > start) || !std::isfinite(end - start)) return {};
     std::vector<int> inputs = inputs_of(program);
     const KnownCalls known(program);
+    const QuickOfTables quick(program, inputs, known.above);
     std::erase_if(inputs, [&](int id) { return known.above.contains(id); });
-    std::vector<InputTimeScale> found;
-    if (!inputs.empty()) found = Search(program, std::move(inputs), parameters, start, end).go();
-    return with_ends_at(std::move(found), times_of_knots(program, known, parameters, start, end));
+    std::optional<std::vector<InputTimeScale>> found;
+    if (!quick.functions.empty()) {
+        std::vector<int> all = inputs;
+        all.insert(all.end(), quick.functions.begin(), quick.functions.end());
+        found = Search(program, std::move(all), quick.arguments, parameters, start, end).go();
+    }
+    if (!found && !inputs.empty()) found = Search(program, std::move(inputs), {}, parameters, start, end).go();
+    const TimesOfKnots knots = times_of_knots(program, known, parameters, start, end);
+    return with_longest(with_ends_at(std::move(found).value_or(std::vector<InputTimeScale>()), knots.times),
+                        knots.longest, start, end);
 }
 
 std::vector<InputTimeScale> sudden_times(const std::vector<InputTimeScale>& quick) {

@@ -20,7 +20,7 @@ bool is_at_knot(const Program& program, const Node& node, const std::vector<Puis
         const PuiseuxSeries& x = value[call.argument[k]];
         const TableAxis& axis = table.axes()[k];
         const long double place = x.at(0).value, allowed = known_to * std::max(1.0L, std::abs(place));
-        for (const int kink : axis.kinks[call.orders[0] + call.orders[1] > 0 ? 1 : 0]) {
+        for (const int kink : axis.kinks) {
             long double distance = place - axis.at[static_cast<std::size_t>(kink)];
             if (axis.period > 0) distance = std::remainder(distance, static_cast<long double>(axis.period));
             if (std::abs(distance) <= allowed) return true;

@@ -16,6 +16,8 @@ namespace {
 
 using List = std::vector<double>;
 
+constexpr double no_number = 1e9;  // of an interval: shares of sides that do not exist are not finite, or large
+
 double width(const List& x, std::size_t i) {
     return x[i + 1] - x[i];
 }
@@ -169,7 +171,7 @@ TabulatedFunction::TabulatedFunction(Points points)
     for (TableAxis& axis : axes_) {
         size *= axis.at.size();
         if (axis.at.size() < 2) throw std::invalid_argument("a table needs two points along each axis");
-        axis.step = (axis.at.back() - axis.at.front()) / static_cast<double>(axis.at.size() - 1);
+        axis.pieces_a_unit = static_cast<double>(axis.at.size() - 1) / (axis.at.back() - axis.at.front());
     }
     if (axes_.empty() || axes_.size() > 2 || size != points.values.size())
         throw std::invalid_argument("a table with another number of values than points");
@@ -215,21 +217,51 @@ void TabulatedFunction::find_kinks() {
                     }
             return false;
         };
-        for (int set = 0; set < 2; ++set) {
-            const int most = std::min(2 + set, degree_);
-            if (axis.period > 0 && jumps(pieces - 1, 0, most)) axis.kinks[set].push_back(0);
-            const bool has_ends = axis.period == 0 && outside_ != Outside::error;
-            const bool bends = outside_ == Outside::hold || interpolation_ == Interpolation::pchip ||
-                               (set == 1 && interpolation_ == Interpolation::cubic);
-            if (has_ends && bends) axis.kinks[set].push_back(0);
-            for (std::size_t i = 1; i < pieces; ++i)
-                if (jumps(i - 1, i, most)) axis.kinks[set].push_back(static_cast<int>(i));
-            if (has_ends && bends) axis.kinks[set].push_back(static_cast<int>(pieces));
+        // A run holds the function and its derivatives in one interval: a constraint y = f(x) and its rate by f'
+        // must go on beyond a knot by one polynomial. Methods need second derivatives of f', so the third counts.
+        const int most = std::min(3, degree_);
+        const bool has_ends = axis.period == 0 && outside_ != Outside::error;
+        const bool bends = outside_ == Outside::hold || interpolation_ != Interpolation::linear;
+        if ((axis.period > 0 && jumps(pieces - 1, 0, most)) || (has_ends && bends)) axis.kinks.push_back(0);
+        for (std::size_t i = 1; i < pieces; ++i)
+            if (jumps(i - 1, i, most)) axis.kinks.push_back(static_cast<int>(i));
+        if (has_ends && bends) axis.kinks.push_back(static_cast<int>(pieces));
+        for (std::size_t i = 0, before = 0; i < pieces; ++i) {
+            if (before < axis.kinks.size() && axis.kinks[before] == static_cast<int>(i)) ++before;
+            axis.intervals.push_back(static_cast<int>(before));
         }
-        // A run holds the function and its derivatives on one side: a constraint y = f(x) and its rate by f' must
-        // go on beyond a knot by one polynomial.
-        axis.kinks[0] = axis.kinks[1];
     }
+}
+
+/// Whether a piece of the first period lies in the interval of this number.
+bool TabulatedFunction::is_in(std::size_t piece, int order, double number) const {
+    if (!(number >= 0 && number < no_number)) return true;
+    const int own = axes_[0].intervals[piece], whole = static_cast<int>(number);
+    if (static_cast<double>(whole) != number) return false;
+    const auto around = static_cast<int>(cycle(0, {order, 0}));
+    return own == whole || own + around == whole || (around == 2 && (own - whole) % 2 == 0);
+}
+
+double TabulatedFunction::value_of_one(int order, double x, double number) const {
+    const std::vector<double>& at = axes_[0].at;
+    const std::size_t pieces = at.size() - 1;
+    if (order <= degree_ && x >= at[0] && x < at[pieces]) {
+        std::size_t k = std::min(static_cast<std::size_t>((x - at[0]) * axes_[0].pieces_a_unit), pieces - 1);
+        if (x < at[k])
+            k -= k > 0 ? 1 : 0;
+        else if (x >= at[k + 1] && k + 1 < pieces)
+            ++k;
+        if (x >= at[k] && x < at[k + 1] && is_in(k, order, number)) {
+            const double u = x - at[k], *const c =
+                                            coefficients_.data() + (static_cast<std::size_t>(degree_) + 1) * k;
+            if (degree_ == 1) return order == 0 ? c[0] + u * c[1] : c[1];
+            return order == 0   ? c[0] + u * (c[1] + u * (c[2] + u * c[3]))
+                   : order == 1 ? c[1] + u * (2 * c[2] + u * (3 * c[3]))
+                   : order == 2 ? 2 * c[2] + u * (6 * c[3])
+                                : 6 * c[3];
+        }
+    }
+    return value<double>({order, 0}, {&x, nullptr}, {number, free});
 }
 
 double TabulatedFunction::knot(const TableAxis& axis, long index) const {
@@ -253,7 +285,7 @@ long TabulatedFunction::piece_at(const TableAxis& axis, double x) const {
     } else if (x >= axis.at.back()) {
         return x > axis.at.back() ? pieces : pieces - 1;
     }
-    long k = std::clamp(floor_of((x - axis.at.front()) / axis.step), 0L, pieces - 1);
+    long k = std::clamp(floor_of((x - axis.at.front()) * axis.pieces_a_unit), 0L, pieces - 1);
     const auto at = [&](long i) { return axis.at[static_cast<std::size_t>(i)]; };
     constexpr int near = 2;
     for (int tries = 0; tries < near && k > 0 && x < at(k); ++tries) --k;
@@ -265,25 +297,31 @@ long TabulatedFunction::piece_at(const TableAxis& axis, double x) const {
     return before + k;
 }
 
-TabulatedFunction::Gap TabulatedFunction::gap_of(const TableAxis& axis, const std::vector<int>& kinks,
-                                                 long piece) const {
-    Gap gap;
-    if (kinks.empty()) return gap;
-    const auto pieces = static_cast<long>(axis.at.size()) - 1, count = static_cast<long>(kinks.size());
+TabulatedFunction::Gap TabulatedFunction::gap_of(const TableAxis& axis, long piece) const {
+    if (axis.kinks.empty()) return {};
+    const auto pieces = static_cast<long>(axis.at.size()) - 1;
     const long turns = axis.period > 0 ? floor_of(static_cast<double>(piece) / static_cast<double>(pieces)) : 0;
     const long own = piece - turns * pieces;
-    const long until = std::upper_bound(kinks.begin(), kinks.end(), own) - kinks.begin();  // kinks at or before it
-    gap.number = turns * count + until;
+    const long until =
+        std::upper_bound(axis.kinks.begin(), axis.kinks.end(), own) - axis.kinks.begin();  // at or before it
+    return gap_with(axis, turns * static_cast<long>(axis.kinks.size()) + until);
+}
+
+/// The interval with this number, which there is.
+TabulatedFunction::Gap TabulatedFunction::gap_with(const TableAxis& axis, long number) const {
+    const auto pieces = static_cast<long>(axis.at.size()) - 1, count = static_cast<long>(axis.kinks.size());
+    Gap gap;
+    gap.number = number;
     const auto kink = [&](long number) {  // of kinks counted through all periods
         const long round = floor_of(static_cast<double>(number) / static_cast<double>(count));
-        return round * pieces + kinks[static_cast<std::size_t>(number - round * count)];
+        return round * pieces + axis.kinks[static_cast<std::size_t>(number - round * count)];
     };
-    if (axis.period > 0 || until > 0) {
+    if (axis.period > 0 || number > 0) {
         const long index = kink(gap.number - 1);
         gap.low = knot(axis, index);
         gap.before = index - 1;
     }
-    if (axis.period > 0 || until < count) {
+    if (axis.period > 0 || number < count) {
         const long index = kink(gap.number);
         gap.high = knot(axis, index);
         gap.after = index;
@@ -291,17 +329,47 @@ TabulatedFunction::Gap TabulatedFunction::gap_of(const TableAxis& axis, const st
     return gap;
 }
 
-TabulatedFunction::Cell TabulatedFunction::cell(std::size_t k, double x, const std::vector<int>& kinks,
-                                                int side) const {
+bool TabulatedFunction::may_jump(const Orders& orders) const {
+    const int smooth = interpolation_ == Interpolation::linear  ? 0
+                       : interpolation_ == Interpolation::pchip ? 1
+                                                                : 2;
+    return orders[0] + orders[1] > (outside_ == Outside::hold ? 0 : smooth);
+}
+
+/// Mixtures of two intervals around a jump have numbers between both, which those modulo 2·count have not.
+bool TabulatedFunction::tells_knots(std::size_t axis, const Orders& orders) const {
+    return axes_[axis].kinks.size() <= most_told && !(axes_[axis].period > 0 && may_jump(orders));
+}
+
+long TabulatedFunction::cycle(std::size_t axis, const Orders& orders) const {
+    const auto count = static_cast<long>(axes_[axis].kinks.size());
+    if (!tells_knots(axis, orders)) return 2;
+    return axes_[axis].period > 0 ? 2 * count : count + 1;
+}
+
+TabulatedFunction::Cell TabulatedFunction::cell(std::size_t k, double x, const Orders& orders,
+                                                double number) const {
     const TableAxis& axis = axes_[k];
     const auto pieces = static_cast<long>(axis.at.size()) - 1;
     if (!has(k, x) || std::isnan(x)) return {.piece = 0, .from = 0, .has_value = false};
     long piece = piece_at(axis, x);
-    if (side != 0 && !kinks.empty())
-        if (const Gap gap = gap_of(axis, kinks, piece); gap.side() != side) {
-            const bool goes_back = gap.low && (!gap.high || x - *gap.low < *gap.high - x);
-            if (gap.low || gap.high) piece = goes_back ? gap.before : gap.after;
+    if (number >= 0 && number < no_number && !axis.kinks.empty()) {
+        const Gap gap = gap_of(axis, piece);
+        const long around = cycle(k, orders), ahead = floor_of(number) - gap.number;
+        long steps = ahead - floor_of(static_cast<double>(ahead) / static_cast<double>(around)) * around;
+        if (around == 2)
+            steps = steps != 0 && gap.low && (!gap.high || x - *gap.low < *gap.high - x) ? -1 : steps;
+        else if (axis.period == 0)
+            steps = ahead;
+        else if (2 * steps > around)
+            steps -= around;
+        if (axis.period == 0)
+            steps = std::clamp(steps, -gap.number, static_cast<long>(axis.kinks.size()) - gap.number);
+        if (steps != 0) {
+            const Gap meant = gap_with(axis, gap.number + steps);
+            piece = steps < 0 ? meant.after - 1 : meant.before + 1;
         }
+    }
     if (axis.period > 0) {
         const long turns = floor_of(static_cast<double>(piece) / static_cast<double>(pieces));
         return {.piece = static_cast<std::size_t>(piece - turns * pieces), .from = knot(axis, piece)};
@@ -312,11 +380,10 @@ TabulatedFunction::Cell TabulatedFunction::cell(std::size_t k, double x, const s
             .beyond = static_cast<int>(piece - inside)};
 }
 
-Interval TabulatedFunction::side_range(const TableAxis& axis, const std::vector<int>& kinks, int order,
-                                       const Interval& x) const {
+Interval TabulatedFunction::side_range(const TableAxis& axis, int order, const Interval& x) const {
     const auto at = [&](double place) { return side_value<double>(order, place); };
     const long first = piece_at(axis, x.low), last = piece_at(axis, x.high);
-    const Gap low = gap_of(axis, kinks, first), high = gap_of(axis, kinks, last);
+    const Gap low = gap_of(axis, first), high = gap_of(axis, last);
     const double begin = at(x.low), end = at(x.high);
     Interval result = widened(std::min(begin, end), std::max(begin, end));
     if (low.number == high.number) {
@@ -333,10 +400,9 @@ Interval TabulatedFunction::side_range(const TableAxis& axis, const std::vector<
 
 Bounds TabulatedFunction::side_bounds(int order, const Bounds& x) const {
     if (!(std::abs(x.value.low) < HUGE_VAL) || !(std::abs(x.value.high) < HUGE_VAL)) return whole_bounds();
-    const TableAxis& axis = axes_[static_cast<std::size_t>(order / 10 % 2)];
-    const std::vector<int>& kinks = axis.kinks[(order - side_function) / 20];
-    return through(x, side_range(axis, kinks, order, x.value), side_range(axis, kinks, order + 1, x.value),
-                   side_range(axis, kinks, order + 2, x.value));
+    const TableAxis& axis = axes_[side_axis(order)];
+    return through(x, side_range(axis, order, x.value), side_range(axis, order + 1, x.value),
+                   side_range(axis, order + 2, x.value));
 }
 
 std::string TabulatedFunction::fingerprint() const {
@@ -354,23 +420,24 @@ std::string TabulatedFunction::fingerprint() const {
     return std::to_string(h);
 }
 
-const TabulatedFunction::Call& TabulatedFunction::new_call(const Orders& orders, const Sides& sides,
-                                                           int held) const {
-    std::unique_ptr<Call>& made = calls_[{orders[0], orders[1], sides[0], sides[1], held}];
-    if (made) return *made;
-    made = std::make_unique<Call>(Call{.table = this, .orders = orders, .sides = sides, .held = held});
+const TabulatedFunction::Call& TabulatedFunction::new_call(const Orders& orders, const Held& held,
+                                                           std::size_t left) const {
+    std::unique_ptr<Call>& made = calls_[{orders, held}];
+    if (!made) made = std::make_unique<Call>(Call{.table = this, .orders = orders, .held = held});
     Call& result = *made;
-    for (std::size_t k = 0; held > 0 && k < 2; ++k) {
-        Sides with = sides;
-        with[axes_.size() - static_cast<std::size_t>(held)] = k == 0 ? -1 : 1;
-        result.with[k] = &new_call(orders, with, held - 1);
+    const std::size_t axis = axes_.size() - left;
+    for (long number = static_cast<long>(result.with.size()); left > 0 && number <= cycle(axis, orders);
+         ++number) {
+        Held with = held;
+        with[axis] = number == cycle(axis, orders) ? free : static_cast<double>(number);
+        result.with.push_back(&new_call(orders, with, left - 1));
     }
     return result;
 }
 
 const TabulatedFunction::Call& TabulatedFunction::call(const Orders& orders, bool is_held) const {
     const std::lock_guard guard(lock_);
-    return new_call(orders, {0, 0}, is_held ? static_cast<int>(axes_.size()) : 0);
+    return new_call(orders, {free, free}, is_held && axes_.size() > 1 ? axes_.size() : 0);
 }
 
 namespace {
@@ -386,18 +453,26 @@ double bits_for_code(const TabulatedFunction::Call& call) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(&call)));
 }
 
-double held_for_code(double call, double side) {
-    return bits_for_code(*call_of(call).with[side < 0 ? 0 : 1]);
+double held_for_code(double call, double number) {
+    const std::vector<const TabulatedFunction::Call*>& with = call_of(call).with;
+    if (!(number >= 0 && number < no_number)) return bits_for_code(*with.back());
+    const auto count = static_cast<double>(with.size() - 1), whole = std::floor(number + 0.5);
+    return bits_for_code(*with[static_cast<std::size_t>(whole - count * std::floor(whole / count))]);
 }
 
 double value_for_code(double bits, double x) {
     const TabulatedFunction::Call& call = call_of(bits);
-    return call.table->value<double>(call.orders, {&x, nullptr}, call.sides);
+    return call.table->value_of_one(call.orders[0], x);
+}
+
+double held_value_for_code(double bits, double x, double number) {
+    const TabulatedFunction::Call& call = call_of(bits);
+    return call.table->value_of_one(call.orders[0], x, number);
 }
 
 double value_of_two_for_code(double bits, double x, double y) {
     const TabulatedFunction::Call& call = call_of(bits);
-    return call.table->value<double>(call.orders, {&x, &y}, call.sides);
+    return call.table->value<double>(call.orders, {&x, &y}, call.held);
 }
 
 }  // namespace alembert

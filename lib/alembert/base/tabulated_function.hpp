@@ -13,11 +13,15 @@
 /// rises and falls where the points do (Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5 (1984), with three points
 /// at the ends). The polynomials' coefficients are doubles, and all that evaluates a table takes the same ones.
 ///
-/// Knots at which a derivative jumps divide an axis into intervals; even ones have side 1, odd ones side −1. A run
-/// holds the side, as it holds the sign of what |x| depends on (program/switches.hpp): a value with a given side
-/// is that of the nearest interval of that side, whose polynomial goes on beyond its ends. The side function,
-/// whose sign is the side and whose zeros are these knots, is (x − a)(b − x)/(b − a) with alternating sign, which
-/// is continuous with its first derivative.
+/// Knots at which a derivative jumps divide an axis into intervals, which are numbered from 0; through all
+/// periods, where there is one. A run holds the number, as it holds the sign of what |x| depends on
+/// (program/switches.hpp): the value is then that of the interval, whose polynomials go on beyond its ends. With
+/// at most `most_told` such knots the number is held modulo `cycle`, of which a step cannot pass so many; with
+/// more it is even or odd, and the nearest such interval is meant. The side function, which is positive in even
+/// ones and negative in odd ones, is then (x − a)(b − x)/(b − a) with alternating sign, continuous with its first
+/// derivative.
+///
+/// Between two numbers the value is the mixture of both, as where a motion slides along a jump.
 ///
 /// Outside of the points there is no value (NaN), or the function keeps its last value, or goes on along the line.
 
@@ -37,12 +41,11 @@
 namespace alembert {
 
 struct TableAxis {
-    std::vector<double> at;  ///< ascending, two or more
-    double period = 0;       ///< 0 if there is none
-    /// Positions of the knots at which a derivative up to the third jumps, for the function and for its
-    /// derivatives: the same ones.
-    std::vector<int> kinks[2] = {};
-    double step = 0;  ///< the mean distance
+    std::vector<double> at;           ///< ascending, two or more
+    double period = 0;                ///< 0 if there is none
+    std::vector<int> kinks = {};      ///< positions of the knots at which a derivative up to the third jumps
+    std::vector<int> intervals = {};  ///< of each piece the number of such knots before it
+    double pieces_a_unit = 0;         ///< on average
 };
 
 class TabulatedFunction {
@@ -50,16 +53,20 @@ public:
     enum class Interpolation : unsigned char { linear, cubic, pchip };
     enum class Outside : unsigned char { error, hold, line };
     struct Points {
-        std::vector<TableAxis> axes;  ///< one or two; kinks and step follow
+        std::vector<TableAxis> axes;  ///< one or two; what follows from the places is found
         std::vector<double> values;   ///< row by row: the last axis runs fastest
         Interpolation interpolation = Interpolation::linear;
         Outside outside = Outside::error;
     };
     using Orders = std::array<int, 2>;
-    using Sides = std::array<int, 2>;  ///< 0 where none is held
+    /// The numbers of intervals, at least 0; `free`, or no number, where none is held. Of two arguments they are
+    /// whole.
+    using Held = std::array<double, 2>;
+    static constexpr double free = -1;
 
     /// Orders from this on are those of a side function: `side_order` gives them.
     static constexpr int side_function = 100;
+    static constexpr std::size_t most_told = 64;
 
     /// Of a function with a period the last point is that of the first one, a period later.
     explicit TabulatedFunction(Points points);
@@ -76,16 +83,23 @@ public:
     /// Equal for equal tables.
     std::string fingerprint() const;
 
-    /// Whether there are knots along an axis that divide it for the derivative of these orders.
-    bool has_kinks(std::size_t axis, const Orders& orders) const { return !kinks(axis, orders).empty(); }
-    /// The order by which a call has the side function of these kinks; its derivatives have the next ones.
-    static int side_order(std::size_t axis, const Orders& orders) {
-        return side_function + 20 * (orders[0] + orders[1] > 0 ? 1 : 0) + 10 * static_cast<int>(axis);
-    }
+    /// The order by which a call has the side function along this axis; its derivatives have the next ones.
+    static int side_order(std::size_t axis) { return side_function + 10 * static_cast<int>(axis); }
+    static std::size_t side_axis(int order) { return static_cast<std::size_t>(order / 10 % 2); }
+
+    /// Whether a derivative of these orders jumps at knots; else it is continuous.
+    bool may_jump(const Orders& orders) const;
+    /// Whether a run sees each knot by itself.
+    bool tells_knots(std::size_t axis, const Orders& orders) const;
+    /// Modulo what the number of an interval is held.
+    long cycle(std::size_t axis, const Orders& orders) const;
 
     /// The derivative of these orders. A derivative of a side function takes one argument and one order.
     template <typename Real>
-    Real value(const Orders& orders, const std::array<const Real*, 2>& x, const Sides& sides = {0, 0}) const;
+    Real value(const Orders& orders, const std::array<const Real*, 2>& x, const Held& held = {free, free}) const;
+
+    /// The same of one argument and one number, in less time.
+    double value_of_one(int order, double x, double number = free) const;
 
     /// Whether there is a value at x along this axis.
     bool has(std::size_t axis, double x) const {
@@ -101,9 +115,8 @@ public:
     struct Call {
         const TabulatedFunction* table;
         Orders orders;
-        Sides sides;
-        int held;                           ///< how many sides are still to be given
-        std::array<const Call*, 2> with{};  ///< the call whose next side is −1, or 1
+        Held held;
+        std::vector<const Call*> with{};  ///< of two: the calls whose next interval has these numbers, and is free
     };
     const Call& call(const Orders& orders, bool is_held) const;
 
@@ -114,9 +127,6 @@ private:
         int beyond = 0;  ///< −1 before the first point, 1 behind the last one
         bool has_value = true;
     };
-    const std::vector<int>& kinks(std::size_t axis, const Orders& orders) const {
-        return axes_[axis].kinks[orders[0] + orders[1] > 0 ? 1 : 0];
-    }
     struct Gap {
         std::optional<double> low, high;  ///< the kinks around
         long before = 0, after = 0;       ///< pieces on the other sides of them, counted through all periods
@@ -124,17 +134,19 @@ private:
         int side() const { return number % 2 == 0 ? 1 : -1; }
     };
     long piece_at(const TableAxis& axis, double x) const;
-    Gap gap_of(const TableAxis& axis, const std::vector<int>& kinks, long piece) const;
+    Gap gap_of(const TableAxis& axis, long piece) const;
+    Gap gap_with(const TableAxis& axis, long number) const;
     double knot(const TableAxis& axis, long index) const;
-    Cell cell(std::size_t axis, double x, const std::vector<int>& kinks, int side) const;
-    Interval side_range(const TableAxis& axis, const std::vector<int>& kinks, int order, const Interval& x) const;
-    const Call& new_call(const Orders& orders, const Sides& sides, int held) const;
+    Cell cell(std::size_t axis, double x, const Orders& orders, double number) const;
+    Interval side_range(const TableAxis& axis, int order, const Interval& x) const;
+    const Call& new_call(const Orders& orders, const Held& held, std::size_t left) const;
     template <typename Real>
     Real side_value(int order, const Real& x) const;
     template <typename Real>
     void weights(std::array<Real, 4>& w, int order, const Real& x, const Cell& cell, const TableAxis& axis) const;
 
     void find_kinks();
+    bool is_in(std::size_t piece, int order, double number) const;
 
     std::vector<TableAxis> axes_;
     Interpolation interpolation_;
@@ -142,7 +154,7 @@ private:
     int degree_;
     std::vector<double> coefficients_;
     mutable std::mutex lock_;
-    mutable std::map<std::array<int, 5>, std::unique_ptr<Call>> calls_;
+    mutable std::map<std::pair<Orders, Held>, std::unique_ptr<Call>> calls_;
 };
 
 /// Where in a table a number lies. Numbers of other types have a function of this name beside them.
@@ -199,9 +211,8 @@ void TabulatedFunction::weights(std::array<Real, 4>& w, int order, const Real& x
 
 template <typename Real>
 Real TabulatedFunction::side_value(int order, const Real& x) const {
-    const TableAxis& axis = axes_[static_cast<std::size_t>(order / 10 % 2)];
-    const std::vector<int>& kinks = axis.kinks[(order - side_function) / 20];
-    const Gap gap = gap_of(axis, kinks, piece_at(axis, place_of(x)));
+    const TableAxis& axis = axes_[side_axis(order)];
+    const Gap gap = gap_of(axis, piece_at(axis, place_of(x)));
     const int times = order % 10;
     const Real sign = real_in<Real>(gap.side());
     if (gap.low && gap.high) {
@@ -218,15 +229,19 @@ Real TabulatedFunction::side_value(int order, const Real& x) const {
 }
 
 template <typename Real>
-Real TabulatedFunction::value(const Orders& orders, const std::array<const Real*, 2>& x,
-                              const Sides& sides) const {
+Real TabulatedFunction::value(const Orders& orders, const std::array<const Real*, 2>& x, const Held& held) const {
     if (orders[0] >= side_function) return side_value(orders[0], *x[0]);
     if (orders[0] > degree_ || orders[1] > degree_) return Real(0);
+    if (const double whole = std::floor(held[0]); held[0] > whole) {
+        const double share = held[0] - whole;
+        return real_in<Real>(1 - share) * value<Real>(orders, x, {whole, held[1]}) +
+               real_in<Real>(share) * value<Real>(orders, x, {whole + 1, held[1]});
+    }
     const auto columns = static_cast<std::size_t>(degree_) + 1;
     std::array<std::array<Real, 4>, 2> w{};
     std::size_t at = 0;
     for (std::size_t k = 0; k < axes_.size(); ++k) {
-        const Cell c = cell(k, place_of(*x[k]), kinks(k, orders), sides[k]);
+        const Cell c = cell(k, place_of(*x[k]), orders, held[k]);
         if (!c.has_value) return real_in<Real>(std::numeric_limits<double>::quiet_NaN());
         weights(w[k], orders[k], *x[k], c, axes_[k]);
         at = k == 0 ? c.piece : at * (axes_[k].at.size() - 1) + c.piece;
@@ -247,8 +262,9 @@ Real TabulatedFunction::value(const Orders& orders, const std::array<const Real*
 
 /// For code in memory, which carries the address of a TabulatedFunction::Call in the bits of a double.
 double bits_for_code(const TabulatedFunction::Call& call);
-double held_for_code(double call, double side);
 double value_for_code(double call, double x);
+double held_value_for_code(double call, double x, double number);
+double held_for_code(double call, double number);  ///< of two arguments: the call with the next number
 double value_of_two_for_code(double call, double x, double y);
 
 }  // namespace alembert

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/hybrid/automaton.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,6 +41,20 @@ void settle_end(Trajectory& part, const Options& options, const std::string& cha
         part.times.back() = end;
     if (part.failure && part.failure->kind == FailureKind::budget_used_up)
         part.failure->message = budget_is_used_up(options.budget, part.failure->time, changes);
+    const auto last = part.final_state();
+    const auto bad = std::find_if(last.begin(), last.end(), [](double y) { return !std::isfinite(y); });
+    if (part.failure || bad == last.end()) return;
+    // What a method adds up besides, such as the work, does not end its steps.
+    part.ending = Ending::failed;
+    part.failure =
+        Failure{.kind = FailureKind::not_a_number,
+                .message = fmt::format(
+                    "{} is no longer finite after t = {}; take a shorter step, or an adaptive method such "
+                    "as dop853",
+                    "the state or the work", part.times.back()),
+                .time = part.times.back(),
+                .state = {last.begin(), last.end()},
+                .component = static_cast<int>(bad - last.begin())};
 }
 
 }  // namespace alembert
