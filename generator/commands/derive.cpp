@@ -16,6 +16,7 @@ struct DeriveVerb : SceneOptions {
     PageOptions page;
     bool reactions = false;
     std::string draw;  ///< an SVG file; empty for none
+    GivenValues given;
 };
 
 int run(const DeriveVerb& options) {
@@ -23,7 +24,7 @@ int run(const DeriveVerb& options) {
     page.full = options.full;
     check_output(options.draw, FileForm::picture, {options.scene});
     Progress progress;
-    const DerivedScene d = derive(scene_of(options.scene),
+    const DerivedScene d = derive(with_given(scene_of(options.scene), options.given),
                                   {.by = options.by,
                                    .reactions = options.reactions,
                                    .full = options.full || options.json,
@@ -46,6 +47,7 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                                 .about = say("prints the equations of motion in the form of a textbook"),
                                 .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
                                run, [](Verb& verb, DeriveVerb& options) {
+                                   add_given_state(verb, options.given);
                                    verb.take("--by", options.by);
                                    verb.take("--format", options.page.format);
                                    verb.add_flag("--steps", options.page.steps,

@@ -20,6 +20,7 @@ struct EmitVerb : SceneOptions {
     std::string functions;
     std::vector<std::string> frames, wrenches;
     EmissionOptions emission;
+    GivenValues given;
 };
 
 int run(const EmitVerb& options) {
@@ -29,7 +30,8 @@ int run(const EmitVerb& options) {
     wishes.frames = options.frames;
     wishes.wrenches = options.wrenches;
     wishes.language = language_of(options.language);
-    const Emission e = emission(scene_of(options.scene), wishes);
+    wishes.at = options.given.at;
+    const Emission e = emission(with_given(scene_of(options.scene), options.given), wishes);
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
@@ -90,6 +92,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .type_name(values::point);
             verb.add_flag("--batch", options.emission.batch,
                           say("also the same functions for eight systems at once"));
+            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

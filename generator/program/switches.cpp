@@ -350,4 +350,20 @@ std::optional<Switched> switched(const Program& program, SecondRates second) {
     return result;
 }
 
+bool jumps_along_motion(const Program& p, const std::vector<int>& values, bool by_parameters) {
+    const std::vector<int> needed = p.needed(values);
+    unsigned fixed = 1U << static_cast<unsigned>(Variable::Kind::time);
+    if (!by_parameters) fixed |= 1U << static_cast<unsigned>(Variable::Kind::parameter);
+    const auto by_time_alone = [&](int argument) { return (p[argument].depends & ~fixed) == 0; };
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        if (p[id].op == Op::sign) return !by_time_alone(p[id].args[0]);
+        const TabulatedFunction* const table = p[id].op == Op::unspecified ? p.table_of(p[id]) : nullptr;
+        if (table == nullptr) return false;
+        const Program::TableCall call = p.table_call(p[id]);
+        const bool is_of_time = by_time_alone(call.argument[0]) &&
+                                (call.arguments < 2 || by_time_alone(call.argument[1]));
+        return !is_of_time && table->may_jump(call.orders);
+    });
+}
+
 }  // namespace alembert

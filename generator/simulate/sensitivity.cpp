@@ -13,6 +13,7 @@
 #include "base/language/say.hpp"
 #include "program/event_code.hpp"
 #include "program/lower/quick_times.hpp"
+#include "program/switches.hpp"
 #include "program/variation.hpp"
 
 namespace alembert {
@@ -31,11 +32,11 @@ void check_smooth_motion(const Mechanism& m, const Program& program) {
             say("--sensitivity: the scene has contacts, dry friction or events that change the motion, at which "
                 "derivatives "
                 "jump; leave these out"));
-    const std::vector<int> needed = program.needed(program.right_hand_side());
-    if (std::any_of(needed.begin(), needed.end(), [&](int id) { return program[id].op == Op::sign; }))
+    if (jumps_along_motion(program, program.right_hand_side(), true))
         throw ModelError(
-            say("--sensitivity: the accelerations jump where the argument of a 'sign' is zero, and derivatives "
-                "with them; write a smooth function in its place"));
+            say("--sensitivity: the accelerations jump where the argument of a 'sign' is zero or a table has a "
+                "corner, and derivatives with them; write a smooth function in its place, or take "
+                "interpolation = \"cubic\""));
 }
 
 /// Coordinates, then rates or speeds.

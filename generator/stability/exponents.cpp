@@ -18,6 +18,7 @@
 #include "codegen/emit/emit.hpp"
 #include "program/differentiate.hpp"
 #include "program/lower/lower.hpp"
+#include "program/switches.hpp"
 #include "stability/linear/tangent.hpp"
 
 namespace alembert {
@@ -89,6 +90,14 @@ void check_smooth(const Mechanism& m) {
         throw ModelError(say(
             "Lyapunov exponents are computed for smooth motions; this scene has contacts, dry friction or events "
             "that change the motion, at which the variational equations jump"));
+}
+
+void check_jumps(const Program& program) {
+    if (jumps_along_motion(program, program.right_hand_side()))
+        throw ModelError(
+            say("Lyapunov exponents are computed for smooth motions; here accelerations jump where the argument of "
+                "a 'sign' is zero or a table has a corner, and the variational equations with them; write a smooth "
+                "function in its place, or take interpolation = \"cubic\""));
 }
 
 /// x, the tangent vectors, and ∫ trace.
@@ -244,6 +253,7 @@ LyapunovExponents lyapunov_exponents(Scene scene, const ExponentOptions& options
     const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true});
     result.warnings = d.warnings;
     check_smooth(d.mechanism);
+    check_jumps(lowered(d).program);
     Start start = start_of(d.mechanism, options.at);
     assemble(start, d.mechanism, lower_constraints(d.mechanism), options.at);
     Benettin(result, d, start, options).go();

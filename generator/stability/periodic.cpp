@@ -13,6 +13,7 @@
 #include "program/differentiate.hpp"
 #include "program/lower/lower.hpp"
 #include "program/quad_motion.hpp"
+#include "program/switches.hpp"
 
 namespace alembert {
 
@@ -77,7 +78,13 @@ PeriodicSystem::PeriodicSystem(const Derived& d)
     : derived_(d),
       program_(differentiated_program(d)),
       residuals_(in_terms_of(d.equations, d.mechanism), d.equations),
-      autonomous_(!changes_with_time(d.mechanism, d.equations) && !is_switched_by_time(program_)) {}
+      autonomous_(!changes_with_time(d.mechanism, d.equations) && !is_switched_by_time(program_)) {
+    if (jumps_along_motion(program_, program_.right_hand_side()))
+        throw ModelError(
+            say("a periodic motion is followed where accelerations are continuous; here they jump where the "
+                "argument of a 'sign' is zero or a table has a corner, and multipliers with them; write a smooth "
+                "function in its place, or take interpolation = \"cubic\""));
+}
 
 std::vector<std::string> PeriodicSystem::names() const {
     std::vector<std::string> result;
