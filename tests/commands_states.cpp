@@ -104,6 +104,38 @@ double state(const Json& motion, const std::string& name) {
 }  // namespace
 
 // Numbers of scipy 1.17: DOP853, rtol 3e-14, steps of at most 0.05, and from one zero of x' to the next.
+TEST_CASE("states: one without a rate keeps its value in equilibria, also where loads determine a rate") {
+    const std::string scene = temporary("gear.toml", R"toml(
+[parameters]
+m = 2
+k = 10
+[coordinates]
+x = 0.3
+y = 0
+[states]
+gear = { initial = 1 }
+F = { rate = "3*gear - F" }
+[[particle]]
+name = "p"
+mass = "m"
+position = ["x", "y"]
+[forces]
+x = "-k*x - x' + F"
+y = "-2*y' - 5*gear"
+[[event]]
+name = "switch"
+when = "x - 1"
+set = { gear = 2 }
+)toml");
+    for (const double gear : {1.0, 2.0}) {
+        const Json found = json_of({"equilibrium", scene, "--at", fmt::format("gear={}", gear)});
+        REQUIRE(found["equilibria"].size() == 1);
+        const Json& one = found["equilibria"][0];
+        CHECK(one["coordinates"]["x"].get<double>() == doctest::Approx(0.3 * gear));
+        CHECK(one["rates"]["y"].get<double>() == doctest::Approx(-2.5 * gear));
+    }
+}
+
 TEST_CASE("states: the bristle of LuGre's friction moves as scipy says, by methods of all kinds") {
     const std::string scene = temporary("bristle.toml", bristle);
     for (const std::string method : {"auto", "dop853", "verner98", "taylor", "radau", "abm"}) {

@@ -360,8 +360,8 @@ bool jumps_along_motion(const Program& p, const std::vector<int>& values, bool b
         const TabulatedFunction* const table = p[id].op == Op::unspecified ? p.table_of(p[id]) : nullptr;
         if (table == nullptr) return false;
         const Program::TableCall call = p.table_call(p[id]);
-        const bool is_of_time = by_time_alone(call.argument[0]) &&
-                                (call.arguments < 2 || by_time_alone(call.argument[1]));
+        const bool is_of_time =
+            by_time_alone(call.argument[0]) && (call.arguments < 2 || by_time_alone(call.argument[1]));
         return !is_of_time && table->may_jump(call.orders);
     });
 }

@@ -56,8 +56,8 @@ bool is_linked(const Mechanism& m) {
 /// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
     if (!d.mechanism.unilateral.empty()) return std::nullopt;
-    for (std::size_t id = 0; id < program.size(); ++id)  // a table, perhaps of a multiplier or event alone
-        if (program[static_cast<int>(id)].op == Op::unspecified) return std::nullopt;
+    for (int id = 0; id < program.size(); ++id)  // a table, perhaps of a multiplier or event alone
+        if (program[id].op == Op::unspecified) return std::nullopt;
     if (program.count(program.right_hand_side()).total() > usual_operations * most_products) return std::nullopt;
     if (obstacle_to_recurrences(program)) return std::nullopt;
     return recurrences(program).products();

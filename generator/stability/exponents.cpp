@@ -94,10 +94,10 @@ void check_smooth(const Mechanism& m) {
 
 void check_jumps(const Program& program) {
     if (jumps_along_motion(program, program.right_hand_side()))
-        throw ModelError(
-            say("Lyapunov exponents are computed for smooth motions; here accelerations jump where the argument of "
-                "a 'sign' is zero or a table has a corner, and the variational equations with them; write a smooth "
-                "function in its place, or take interpolation = \"cubic\""));
+        throw ModelError(say(
+            "Lyapunov exponents are computed for smooth motions; here accelerations jump where the argument of "
+            "a 'sign' is zero or a table has a corner, and the variational equations with them; write a smooth "
+            "function in its place, or take interpolation = \"cubic\""));
 }
 
 /// x, the tangent vectors, and ∫ trace.

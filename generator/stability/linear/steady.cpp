@@ -110,6 +110,12 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
         if (split.u[i] >= residuals_.s - residuals_.states && !program[residuals_.forcing[split.u[i]]].is_number())
             moves(nr + i, i) = 1;
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
+    std::vector<int> still;
+    for (Index i = 0; i < p; ++i)
+        if (split.u[i] >= residuals_.s - residuals_.states && program[residuals_.forcing[split.u[i]]].is_number())
+            still.push_back(split.u[i]);
+    kept_states_ = LongMatrix::Zero(static_cast<Index>(still.size()), residuals_.s);
+    for (std::size_t k = 0; k < still.size(); ++k) kept_states_(static_cast<Index>(k), still[k]) = 1;
     LongMatrix free = LongMatrix::Identity(p, p);
     if (p > 0 && !moves.isZero(0)) free = kernel_of(moves);
     kept_speeds_ = LongMatrix::Zero(free.cols(), residuals_.s);
@@ -203,13 +209,14 @@ SteadySystem SteadyProblem::system_of(const Residuals& residuals, const Instant<
                         .residual = {},
                         .by = {}};
     const Tangent<long double>& t = result.tangent;
+    const LongMatrix& kept_rows = rates == Rates::given ? kept_speeds_ : kept_states_;
     const Index nr = static_cast<Index>(result.split.q.size()), p = static_cast<Index>(result.split.u.size());
     std::vector<Index> still;  // essential independent coordinates
     for (Index j = 0; j < nr; ++j)
         if (essential_[result.split.q[j]]) still.push_back(j);
     result.unknowns = still;
     for (Index i = 0; i < p; ++i) result.unknowns.push_back(nr + i);
-    const Index n_still = static_cast<Index>(still.size()), kept = rates == Rates::given ? kept_speeds_.rows() : 0;
+    const Index n_still = static_cast<Index>(still.size()), kept = kept_rows.rows();
     result.residual.resize(p + n_still + kept);
     LongMatrix all(p + n_still + kept, nr + p);
     result.residual.head(p) = t.balance;
@@ -220,9 +227,9 @@ SteadySystem SteadyProblem::system_of(const Residuals& residuals, const Instant<
     }
     for (Index k = 0; k < kept; ++k) {
         long double sum = 0;
-        for (int i = 0; i < residuals_.s; ++i) sum += kept_speeds_(k, i) * (at.u[i] - given[i]);
+        for (int i = 0; i < residuals_.s; ++i) sum += kept_rows(k, i) * (at.u[i] - given[i]);
         result.residual[p + n_still + k] = sum;
-        all.row(p + n_still + k) = kept_speeds_.row(k) * t.along.block(residuals_.n, 0, residuals_.s, nr + p);
+        all.row(p + n_still + k) = kept_rows.row(k) * t.along.block(residuals_.n, 0, residuals_.s, nr + p);
     }
     result.by.resize(all.rows(), static_cast<Index>(result.unknowns.size()));
     for (std::size_t j = 0; j < result.unknowns.size(); ++j)

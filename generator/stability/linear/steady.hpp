@@ -112,6 +112,7 @@ private:
     std::vector<bool> essential_, follows_q_, follows_u_;
     std::vector<long double> scales_;
     MatrixOf<long double> kept_speeds_;
+    MatrixOf<long double> kept_states_;  ///< the rows of first-order states without a rate, which nothing moves
 };
 
 /// The state that Newton's method reaches from that of `start`, as a user would type it: {"theta", "0"}; empty if
