@@ -10,12 +10,8 @@ namespace alembert {
 
 namespace {
 
-struct AuditVerb : SceneOptions {
-    GivenValues given;
-};
-
-int run_audit(const AuditVerb& options) {
-    const Audited audited = audit(with_given(scene_of(options.scene), options.given));
+int run_audit(const SceneOptions& options) {
+    const Audited audited = audit(scene_of(options.scene));
     warn(audited.warnings);
     if (options.json)
         show(as_json(audited));
@@ -30,14 +26,12 @@ int run_audit(const AuditVerb& options) {
 }  // namespace
 
 void add_audit(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<AuditVerb>(app, chosen,
-                              {.name = "audit",
-                               .about = say("examines the constraints: kinds, rank, redundancy"),
-                               .example = "alembert audit scenes/textbook/sled.toml"},
-                              run_audit, [](Verb& verb, AuditVerb& options) {
-                                  add_given_state(verb, options.given);
-                                  verb.take("--full", options.full);
-                              });
+    add_scene_verb<SceneOptions>(app, chosen,
+                                 {.name = "audit",
+                                  .about = say("examines the constraints: kinds, rank, redundancy"),
+                                  .example = "alembert audit scenes/textbook/sled.toml"},
+                                 run_audit,
+                                 [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
 }
 
 }  // namespace alembert

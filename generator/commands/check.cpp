@@ -31,7 +31,6 @@ struct CheckOptions : SceneOptions {
     bool complete = false;  ///< whether the right claims must determine the motion
     std::vector<std::string> letters;
     std::string page, csv, json_file;
-    GivenValues given;
     bool drafts = false;  ///< whether `scene` is a derivation from which a scene is drafted
 };
 
@@ -167,10 +166,8 @@ int run(const CheckOptions& options) {
     check_output(options.page, FileForm::page, {options.scene, options.claims});
     check_output(options.csv, FileForm::csv, {options.scene, options.claims});
     check_output(options.json_file, FileForm::json, {options.scene, options.claims});
-    if (options.drafts && !options.given.at.empty())
-        throw ModelError(say("--at gives values of a scene, and --scene-from drafts one; leave one of them out"));
     if (options.drafts) return run_draft(options);
-    Scene scene = with_given(scene_of(options.scene), options.given);
+    Scene scene = scene_of(options.scene);
     if (options.claims.empty()) {
         if (!options.page.empty() || !options.csv.empty() || !options.letters.empty())
             throw ModelError(say("--html, -o and --letters are for a derivation; name its file"));
@@ -209,7 +206,6 @@ void add_check(CLI::App& app, Chosen& chosen) {
             verb.add_option("--json-file", options.json_file, say("the JSON object too, into this file"))
                 .type_name(values::file);
             verb.take("--output", options.csv, say("a row for each derivation, as a table"));
-            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

@@ -16,7 +16,6 @@ struct DeriveVerb : SceneOptions {
     PageOptions page;
     bool reactions = false;
     std::string draw;  ///< an SVG file; empty for none
-    GivenValues given;
 };
 
 int run(const DeriveVerb& options) {
@@ -24,7 +23,7 @@ int run(const DeriveVerb& options) {
     page.full = options.full;
     check_output(options.draw, FileForm::picture, {options.scene});
     Progress progress;
-    const DerivedScene d = derive(with_given(scene_of(options.scene), options.given),
+    const DerivedScene d = derive(scene_of(options.scene),
                                   {.by = options.by,
                                    .reactions = options.reactions,
                                    .full = options.full || options.json,
@@ -47,7 +46,6 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                                 .about = say("prints the equations of motion in the form of a textbook"),
                                 .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
                                run, [](Verb& verb, DeriveVerb& options) {
-                                   add_given_state(verb, options.given);
                                    verb.take("--by", options.by);
                                    verb.take("--format", options.page.format);
                                    verb.add_flag("--steps", options.page.steps,

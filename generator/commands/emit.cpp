@@ -20,7 +20,6 @@ struct EmitVerb : SceneOptions {
     std::string functions;
     std::vector<std::string> frames, wrenches;
     EmissionOptions emission;
-    GivenValues given;
 };
 
 int run(const EmitVerb& options) {
@@ -30,8 +29,7 @@ int run(const EmitVerb& options) {
     wishes.frames = options.frames;
     wishes.wrenches = options.wrenches;
     wishes.language = language_of(options.language);
-    wishes.at = options.given.at;
-    const Emission e = emission(with_given(scene_of(options.scene), options.given), wishes);
+    const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
@@ -92,7 +90,6 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .type_name(values::point);
             verb.add_flag("--batch", options.emission.batch,
                           say("also the same functions for eight systems at once"));
-            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

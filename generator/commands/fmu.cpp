@@ -14,13 +14,12 @@ namespace {
 struct FmuVerb : SceneOptions {
     std::string file;
     std::string version = "2";
-    GivenValues given;
 };
 
 int run(const FmuVerb& options) {
     check_output(options.file, FileForm::unit, {options.scene});
-    const FunctionalUnit unit = functional_unit(with_given(scene_of(options.scene), options.given),
-                                                {.by = options.by, .version = options.version == "3" ? 3 : 2});
+    const FunctionalUnit unit =
+        functional_unit(scene_of(options.scene), {.by = options.by, .version = options.version == "3" ? 3 : 2});
     warn(unit.warnings);
     write_file(options.file, unit.archive, {options.scene});
     if (options.json)
@@ -44,7 +43,6 @@ void add_fmu(CLI::App& app, Chosen& chosen) {
                 .required();
             verb.add_option("--fmi", options.version, say("the version of the interface: 2 (default) or 3"))
                 .type_name(values::interface_version);
-            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

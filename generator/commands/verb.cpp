@@ -223,12 +223,8 @@ Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene) {
     return result;
 }
 
-void add_given_state(Verb& verb, GivenValues& given) {
-    verb.take("--at", given.at, say("in place of a value of the scene: l=2, \"theta'=1\""));
-}
-
 void add_given_values(Verb& verb, GivenValues& given) {
-    add_given_state(verb, given);
+    verb.take("--at", given.at, say("in place of a value of the scene: l=2, \"theta'=1\""));
     verb.take("--input", given.inputs);
 }
 

@@ -44,7 +44,7 @@ struct SceneOptions {
     std::string by;     ///< a formalism; if empty, the program chooses
 };
 
-/// What verbs take in place of values of the scene, as typed; inputs by those that integrate.
+/// What the verbs that integrate take in place of values of the scene, as typed.
 struct GivenValues {
     std::vector<std::string> at = {}, inputs = {};
 };
@@ -139,9 +139,6 @@ public:
 private:
     CLI::App* app_;
 };
-
-/// --at, of verbs that take the scene as it then is.
-void add_given_state(Verb& verb, GivenValues& given);
 
 /// --at, --input.
 void add_given_values(Verb& verb, GivenValues& given);

@@ -146,7 +146,6 @@ std::string command_of(const Scene& scene, const EmissionOptions& options) {
     for (const std::string& frame : options.frames) add("--frame", frame);
     for (const std::string& wrench : options.wrenches) add("--wrench", wrench);
     flag("--batch", options.batch);
-    for (const std::string& value : options.at) add("--at", value);
     add("--by", options.by);
     return command;
 }
