@@ -299,4 +299,64 @@ equation = "1e-12*x'' = -3.0000001e-12*x"
     CHECK(of_heavy[2]["verdict"] == "refuted");
 }
 
+TEST_CASE("knots: derivatives along a motion are refused where a table's corner makes accelerations jump") {
+    const auto scene = [](const std::string& interpolation, const std::string& argument,
+                          const std::string& place) {
+        return temporary("corner.toml",
+                         fmt::format(R"toml(
+[parameters]
+a = 1
+[tables]
+f = {{ arguments = ["x"], interpolation = "{}", outside = "line", points = [[-2, 1], [-1, 0], [0, 2], [1, 0], [2, 3]] }}
+[coordinates]
+x = {{ initial = 0.5, rate = 1 }}
+[energy]
+kinetic = "x'^2/2"
+potential = "2*x^2{}"
+[forces]
+x = "a{}"
+[simulation]
+duration = 2
+)toml",
+                                     interpolation, place == "energy" ? " + f(" + argument + ")" : "",
+                                     place == "energy" ? "" : " + f(" + argument + ")"));
+    };
+    const auto refused = [&](const std::string& file, std::vector<std::string> more) {
+        std::vector<std::string> words{more[0], file};
+        words.insert(words.end(), more.begin() + 1, more.end());
+        const auto result = run(words);
+        CHECK(result.exit == (result.err.find("corner") != std::string::npos ? 3 : 0));
+        return result.exit == 3;
+    };
+    const std::vector<std::string> sensitivity{"simulate", "--sensitivity", "a"},
+        exponents{"stability", "--exponents", "1", "--duration", "20"};
+    for (const auto& ask : {sensitivity, exponents}) {
+        CHECK(refused(scene("linear", "x", "energy"), ask));
+        CHECK_FALSE(refused(scene("linear", "x", "forces"), ask));
+        CHECK_FALSE(refused(scene("cubic", "x", "energy"), ask));
+        CHECK_FALSE(refused(scene("pchip", "x", "energy"), ask));
+    }
+}
+
+TEST_CASE("knots: a table in a reaction alone leaves the choice of the method to the program") {
+    const auto result = run({"simulate", temporary("reaction.toml", R"toml(
+[tables]
+f = { arguments = ["x"], points = [[-1, -1], [0.2, -1], [0.3, 1], [1, 1]] }
+[coordinates]
+x = { initial = 0, rate = 1 }
+y = 0
+[energy]
+kinetic = "x'^2/2 + y'^2/2"
+potential = "2.7^2*x^2/2"
+[forces]
+y = "f(x)"
+[[constraint]]
+name = "w"
+holonomic = "y"
+[simulation]
+duration = 6
+)toml")});
+    CHECK_MESSAGE(result.exit == 0, result.err);
+}
+
 }  // namespace commands_table_knots

@@ -181,12 +181,14 @@ class EveryDay(unittest.TestCase):
             chain["particle"].append({"name": f"p{k}", "mass": f"m{k}", "position": [f"l{k}*sin(q{k})", f"-l{k}*cos(q{k})"],
                                       **({"from": f"p{k - 1}"} if k else {})})
         rest = {f"q{k}": 0 for k in range(60)}
+        heard = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # what runs in the background may ignore it
         for verb, scene in (("simulate(1e6, sensitivity=['l'], budget=10**12, sample=1e4, estimate=False)", PENDULUM),
                             ("simulate(1e7, budget=10**12, estimate=False)", PENDULUM), (f"stability({rest})", chain), ("fmu('unit.fmu')", chain),
                             ("agree()", chain), ("equilibrium(starts=10**6)", chain), ("emit(jacobian=True)", chain)):
             code = f"import alembert\nscene = alembert.Scene({scene!r})\nprint('go', flush=True)\nscene.{verb}\n"
             with tempfile.TemporaryDirectory() as folder, subprocess.Popen(
-                    [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder) as child:
+                    [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
+                    preexec_fn=heard) as child:
                 child.stdout.readline()
                 time.sleep(1)
                 if child.poll() is None:
