@@ -161,6 +161,16 @@ TEST_CASE("equilibrium: where every state is one, the branches meet one family, 
     }
 }
 
+TEST_CASE("equilibrium: a fork beside a family is a fork, however narrow the range is") {
+    const Json found =
+        json_of({"equilibrium", pushed("-p*((0.0005 - p)*x + x^3)"), "--vary", "p=-0.001:0.001", "--json"});
+    bool has_fork = false;
+    for (const Json& point : found["points"])
+        has_fork = has_fork ||
+                   (point["kind"] == "pitchfork" && std::abs(point["parameter"].get<double>() - 0.0005) < 1e-8);
+    CHECK(has_fork);
+}
+
 // V = (x - a)^5/5 along the soft direction: the force is never positive there, so that every such rest is
 // unstable, and Newton's method comes no nearer to it than 1e-4.
 TEST_CASE("equilibrium, stability: a rest of high multiplicity is one, and unstable where its state is exact") {

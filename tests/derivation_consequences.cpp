@@ -237,6 +237,8 @@ TEST_CASE("consequences: a coordinate that is held in a special case") {
 TEST_CASE("consequences: a place that is passed holds no coordinate") {
     for (const std::string words :
          {"The following holds at $u = 0$: ", "If the block is not clamped, at $u = 0$, ",
+          "The block is no longer clamped at $u = 0$, so ", "The block isn't clamped at $u = 0$, so ",
+          "The block, which was clamped before, is let go at $u = 0$. Then ",
           "At the moment when the block passes $u = 0$, the pendulum obeys ", "Initially $u = 0$, so ",
           "Die Feder ist bei $u = 0$ entspannt, dort gilt "}) {
         CAPTURE(words);

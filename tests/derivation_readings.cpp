@@ -741,4 +741,37 @@ TEST_CASE("readings: a function of a coordinate with a momentum in it is differe
     }
 }
 
+TEST_CASE("readings: a remark, a number or a name behind a long dash is no term") {
+    for (const std::string behind :
+         {"(1)", "[1]", "m l cancels", "sin(theta) dropped", "theta", "QED", "\u2014 (1)", "Eq. 3"})
+        for (const std::string before : {"", "l theta'' = -g sin(theta)\n\n"}) {
+            CAPTURE(behind);
+            const std::string found =
+                statuses(pendulum, before + "    l theta'' + g sin(theta) = 0 \u2014 " + behind + "\n");
+            CHECK(found.find('M') == std::string::npos);
+            CHECK(found.back() == 'R');
+        }
+    CHECK(statuses(pendulum, "    V = m g l (1 \u2014 cos(theta))\n") == "R");
+}
+
+TEST_CASE("readings: a letter of the scene that stands beside accelerations is no energy") {
+    const std::string string =
+        "[parameters]\nm = 2\nl = 1\nT = 3\n[coordinates]\nx = 0.1\n[energy]\nkinetic = "
+        "\"m*x'^2/2\"\n[forces]\nx = \"T\"\n";
+    CHECK(statuses(string, "$$m\\ddot x = T$$ $$T = m\\ddot x$$") == "RR");
+    CHECK(statuses(string, "$$T = \\frac12 m\\dot x^2$$ $$\\frac{\\partial T}{\\partial\\dot x} = m\\dot x$$") ==
+          "RR");
+}
+
+TEST_CASE("readings: words of a beginning make no value at a start of what the author defines") {
+    CHECK(statuses(spring,
+                   "Starting from the Lagrangian, we write $\\dot r = v$. $$r\\ddot\\theta + 5v\\dot\\theta + "
+                   "g\\sin\\theta = 0$$")
+              .back() == 'M');
+    CHECK(statuses(spring,
+                   "Starting from the Lagrangian, we write $\\dot r = v$. $$r\\ddot\\theta + 2v\\dot\\theta + "
+                   "g\\sin\\theta = 0$$")
+              .back() == 'R');
+}
+
 }  // namespace derivation_readings

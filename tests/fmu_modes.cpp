@@ -107,6 +107,11 @@ TEST_CASE("fmu: rates and states that events set, in rounds, are those of a run"
           "[[event]]\nname = \"c\"\nwhen = \"m - 4\"\nimpulses = { x = \"-x'/2\" }\n",
           "[[event]]\nname = \"a\"\nwhen = \"x\"\nset = { n = \"n + 1 \" }\n"
           "[[event]]\nname = \"e\"\nwhen = \"x\"\nset = { n = \"n + x'\" }\nimpulses = { x = \"0.1*n\" }\n",
+          // The second round turns the motion, at the place of the first one's event.
+          "[[event]]\nname = \"hit\"\nwhen = \"x\"\nrates = { x = \"-x'/2\" }\nset = { n = \"n + 1\" }\n"
+          "[[event]]\nname = \"again\"\nwhen = \"n - 0.5\"\nrates = { x = \"3\" }\n",
+          "[[event]]\nname = \"hit\"\nwhen = \"x\"\nimpulses = { x = \"-1.5*x'\" }\nset = { n = \"n + 1\" }\n"
+          "[[event]]\nname = \"again\"\nwhen = \"n - 0.5\"\nimpulses = { x = \"4\" }\n",
           "[[event]]\nname = \"a\"\nwhen = \"x\"\ndirection = \"up\"\nset = { n = \"n + 1\" }\n"
           "[[event]]\nname = \"last\"\nwhen = \"n - 3\"\nstop = true\n"}) {
         INFO(events);

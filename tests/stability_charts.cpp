@@ -152,6 +152,14 @@ rayleigh = "0.05*th'^2"
     REQUIRE(at_rest.crossings.size() == 1);
     CHECK(std::abs(at_rest.crossings[0].value - 1) < 1e-9);
     CHECK(at_rest.jumps.empty());
+    // A first-order state is followed as a coordinate is.
+    const Scene state = scene_of_text(R"toml(
+[parameters]
+p = -1
+[states]
+z = { initial = 0.9, rate = "3*z - z^3 - p" }
+)toml");
+    CHECK(root_locus(state, {"p", -1.5, 1.9, 41}).jumps.empty());
     // x² = p − 0.3 of a fold: no state before.
     const Scene fold = scene_of_text(R"toml(
 [parameters]

@@ -345,13 +345,12 @@ InNumbers in_numbers(const Told& told, const Motions& motions, const Program& p,
 namespace {
 
 /// Adds a state of a cell.
-void add_seen(const Told& told, const Motions& motions, const NodeInCells& of, const RealState& state,
-              SeenInCell& seen) {
+void add_seen(const Told& told, const TableRounding& rounding, const Motions& motions, const NodeInCells& of,
+              const RealState& state, SeenInCell& seen) {
     const auto value = evaluate(of.program, state, {of.node});
     if (!value) return;
     ++seen.states;
-    if (seen.fails || is_small((*value)[0]) ||
-        TableRounding(told).explains(of.program, of.node, state, (*value)[0]) ||
+    if (seen.fails || is_small((*value)[0]) || rounding.explains(of.program, of.node, state, (*value)[0]) ||
         !is_as_typed(of.program, of.node, state, (*value)[0]))
         return;
     seen.fails = described(told, state, (*value)[0]);
@@ -369,6 +368,7 @@ std::vector<int> roots_of(const NodeInCells& of) {
 std::map<Cell, SeenInCell> survey(const Told& told, const Motions& motions, const NodeInCells& of) {
     constexpr unsigned enough = 16;
     const StatesOnSheet states(told, motions, of.program, roots_of(of));
+    const TableRounding rounding(told);
     std::map<Cell, SeenInCell> result;
     unsigned found = 0;
     for (unsigned seed = 0; seed < 4 * enough && found < enough; ++seed) {
@@ -376,7 +376,7 @@ std::map<Cell, SeenInCell> survey(const Told& told, const Motions& motions, cons
         const auto cell = state ? of.cells.of(*state) : std::nullopt;
         if (!cell) continue;
         ++found;
-        add_seen(told, motions, of, *state, result[*cell]);
+        add_seen(told, rounding, motions, of, *state, result[*cell]);
     }
     return result;
 }
@@ -384,9 +384,11 @@ std::map<Cell, SeenInCell> survey(const Told& told, const Motions& motions, cons
 void look_in_cell(const Told& told, const Motions& motions, const NodeInCells& of, Cell cell, int wanted,
                   SeenInCell& seen) {
     const StatesOnSheet states(told, motions, of.program, roots_of(of));
+    const TableRounding rounding(told);
     constexpr unsigned tries = 60;
     for (unsigned seed = 0; seed < tries && seen.states < wanted && !seen.fails; ++seed)
-        if (const auto state = states.in_cell(of.cells, cell, seed)) add_seen(told, motions, of, *state, seen);
+        if (const auto state = states.in_cell(of.cells, cell, seed))
+            add_seen(told, rounding, motions, of, *state, seen);
 }
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,

@@ -13,6 +13,7 @@
 #include "program/known_knots.hpp"
 #include "program/motion_system.hpp"
 #include "program/partials.hpp"
+#include "program/quotient_signs.hpp"
 #include "program/rewriting.hpp"
 
 namespace alembert {
@@ -350,8 +351,10 @@ std::optional<Switched> switched(const Program& program, SecondRates second) {
     return result;
 }
 
-bool jumps_along_motion(const Program& p, const std::vector<int>& values, bool by_parameters) {
-    const std::vector<int> needed = p.needed(values);
+bool jumps_along_motion(const Program& program, bool by_parameters) {
+    std::vector<QuotientSign> signs;
+    const Program p = with_quotient_signs(program, signs);
+    const std::vector<int> needed = p.needed(p.right_hand_side());
     unsigned fixed = 1U << static_cast<unsigned>(Variable::Kind::time);
     if (!by_parameters) fixed |= 1U << static_cast<unsigned>(Variable::Kind::parameter);
     const auto by_time_alone = [&](int argument) { return (p[argument].depends & ~fixed) == 0; };

@@ -54,8 +54,9 @@ enum class SecondRates { left_out, wanted };
 /// their g̈ are not too long.
 std::optional<Switched> switched(const Program& program, SecondRates second = SecondRates::left_out);
 
-/// Whether a value jumps where the motion comes to a place, a sign, or a derivative of a table at its knots: there
+/// Whether rates jump where the motion comes to a place, by a sign, a quotient such as x/|x|, or a derivative of a
+/// table at its knots: there
 /// derivatives by where the motion began jump too. With `by_parameters` also where parameters move the time of it.
-bool jumps_along_motion(const Program& program, const std::vector<int>& values, bool by_parameters = false);
+bool jumps_along_motion(const Program& program, bool by_parameters = false);
 
 }  // namespace alembert

@@ -32,7 +32,7 @@ void check_smooth_motion(const Mechanism& m, const Program& program) {
             say("--sensitivity: the scene has contacts, dry friction or events that change the motion, at which "
                 "derivatives "
                 "jump; leave these out"));
-    if (jumps_along_motion(program, program.right_hand_side(), true))
+    if (jumps_along_motion(program, true))
         throw ModelError(
             say("--sensitivity: the accelerations jump where the argument of a 'sign' is zero or a table has a "
                 "corner, and derivatives with them; write a smooth function in its place, or take "

@@ -65,7 +65,7 @@ TableWatch::TableWatch(const Program& program, const std::vector<double>& parame
         const TabulatedFunction& table = *program.table_of(node);
         bool all_told = true;
         for (std::size_t k = 0; k < call.arguments; ++k) all_told = all_told && table.tells_knots(k, call.orders);
-        if (all_told || call.orders[0] + call.orders[1] > 0) continue;
+        if (all_told) continue;  // of a force V' the value V is watched
         std::array<double, 2> close{};
         for (std::size_t k = 0; k < call.arguments; ++k)
             if (!table.tells_knots(k, call.orders) && !has_known_knots(program, table, call, k))

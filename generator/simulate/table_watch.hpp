@@ -28,7 +28,6 @@ class TableWatch {
 public:
     TableWatch(const Program& program, const std::vector<double>& parameters);
 
-    bool has_tables() const { return !calls_.empty(); }
     void operator()(double t, std::span<const double> state);
     /// The next state does not follow from the last one.
     void jump() { before_.clear(); }

@@ -93,7 +93,7 @@ void check_smooth(const Mechanism& m) {
 }
 
 void check_jumps(const Program& program) {
-    if (jumps_along_motion(program, program.right_hand_side()))
+    if (jumps_along_motion(program))
         throw ModelError(say(
             "Lyapunov exponents are computed for smooth motions; here accelerations jump where the argument of "
             "a 'sign' is zero or a table has a corner, and the variational equations with them; write a smooth "

@@ -207,7 +207,7 @@ void Local::find_point(const ExactOverrides& exact_at) {
         }
     }
     if (residuals.inputs.empty()) return;
-    point.inputs.assign(static_cast<std::size_t>(residuals.inputs.back()) + 1, RealBall(0));
+    point.inputs.assign(residuals.input_places(), RealBall(0));
     State<Expansion> at_start = state_at(point, nullptr, {});
     const std::vector<Expansion> all = interpret(residuals.program, at_start);
     for (const int k : residuals.inputs) point.inputs[k] = all[residuals.input_values[k]].value();

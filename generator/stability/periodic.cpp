@@ -79,7 +79,7 @@ PeriodicSystem::PeriodicSystem(const Derived& d)
       program_(differentiated_program(d)),
       residuals_(in_terms_of(d.equations, d.mechanism), d.equations),
       autonomous_(!changes_with_time(d.mechanism, d.equations) && !is_switched_by_time(program_)) {
-    if (jumps_along_motion(program_, program_.right_hand_side()))
+    if (jumps_along_motion(program_))
         throw ModelError(
             say("a periodic motion is followed where accelerations are continuous; here they jump where the "
                 "argument of a 'sign' is zero or a table has a corner, and multipliers with them; write a smooth "

@@ -181,10 +181,15 @@ void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const st
         if (!start.exists()) return {};
         Instant<long double> from =
             instant_of<long double>(problem->residuals(), state_of(start.value(), d->mechanism, d->equations));
-        if (!near.empty()) from.q = near;
+        const auto states = static_cast<std::ptrdiff_t>(d->mechanism.states.size());
+        if (!near.empty()) {
+            from.q.assign(near.begin(), near.end() - states);
+            std::copy(near.end() - states, near.end(), from.u.end() - states);
+        }
         const auto root = problem->solve(from);
         if (!root) return {};
         near = root->at.q;
+        near.insert(near.end(), root->at.u.end() - states, root->at.u.end());
         return roots_of(essential_motion(*problem, root->at));
     };
 }

@@ -43,8 +43,8 @@ public:
 
     SpectrumOf of() const { return of_; }
     const std::string& title() const { return title_; }
-    /// The coordinates of an equilibrium, or the state with which a periodic motion begins; empty if none is
-    /// known.
+    /// The coordinates and first-order states of an equilibrium, or the state with which a periodic motion begins;
+    /// empty if none is known.
     using Place = std::vector<long double>;
     std::optional<Roots> at(const std::vector<double>& values) const {
         Place anywhere;

@@ -3,7 +3,7 @@
 
 /// A scene with other values than its own: those that a command line or a caller gives for one run.
 ///
-///     with_values(scene, {{"l", "2"}, {"theta", "pi/2"}, {"theta'", "1"}, {"t", "5"}});   // l; the state; the start
+///     with_values(scene, {{"l", "2"}, {"theta", "pi/2"}, {"theta'", "1"}, {"t", "5"}});   // l; state; start
 ///
 /// A value that is given counts as the scene's own: it is no guess, and what the scene gives by others follows.
 

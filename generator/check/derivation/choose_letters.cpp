@@ -130,58 +130,48 @@ std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) 
     return result;
 }
 
-/// How often a letter stands as an energy does (alone on a side, as a term of a sum, in ∂L/∂q'), and in what else.
-struct Uses {
-    int as_quantity = 0, otherwise = 0;
-    bool is_energy = false;  ///< whether it is differentiated, or equal to what has rates
-};
-
-void count_uses(const Math& math, const Letter& letter, bool is_term, Uses& uses) {
+/// Whether a letter stands in anything but alone on a side, as a term of a sum, or in ∂L/∂q'.
+bool stands_otherwise(const Math& math, const Letter& letter, bool is_term) {
     using Kind = Math::Kind;
-    if (math.kind == Kind::letter) {
-        if (math.letter == letter) ++(is_term && math.dots == 0 ? uses.as_quantity : uses.otherwise);
-        return;
-    }
+    if (math.kind == Kind::letter) return math.letter == letter && (!is_term || math.dots > 0);
     const bool is_sum = math.kind == Kind::sum || math.kind == Kind::negate;
     for (std::size_t k = 0; k < math.args.size(); ++k)
-        count_uses(*math.args[k], letter, (is_sum && is_term) || (math.kind == Kind::partial && k == 0), uses);
+        if (stands_otherwise(*math.args[k], letter, (is_sum && is_term) || (math.kind == Kind::partial && k == 0)))
+            return true;
+    return false;
 }
 
-Uses uses_of(const Letter& letter, const Written& written) {
-    Uses uses;
-    std::set<Letter> differentiated;
-    for (const WrittenStatement& statement : written.statements)
-        for (std::size_t k = 0; k < statement.sides.size(); ++k) {
-            const Math& side = *statement.sides[k];
-            collect_differentiated(side, differentiated);
-            count_uses(side, letter, true, uses);
-            const bool is_alone = side.kind == Math::Kind::letter && side.letter == letter;
-            if (!is_alone || k + 1 >= statement.sides.size()) continue;
-            std::map<Letter, int> other;
-            collect_letters(*statement.sides[k + 1], other);
-            uses.is_energy = uses.is_energy || std::any_of(other.begin(), other.end(),
-                                                           [](const auto& item) { return item.second > 0; });
-        }
-    uses.is_energy = uses.is_energy || differentiated.contains(letter);
-    return uses;
-}
-
-/// Letters of the scene that the author writes for energies alone: L for the Lagrangian where the scene's L is a
-/// length that he does not use.
-std::map<Letter, std::string> energies_in_place_of_names(const Written& written, const Letters& letters) {
-    std::map<Letter, int> all;
-    for (const WrittenStatement& statement : written.statements)
-        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+/// Parameters and inputs of the scene whose letters the author writes for energies alone: L for the Lagrangian
+/// where the scene's L is a length that he does not use. What stands beside accelerations may be a force.
+std::map<Letter, std::string> energies_in_place_of_names(const Scene& scene, const Written& written,
+                                                         const Letters& letters) {
+    std::set<std::string> steady;
+    for (const Parameter& p : scene.parameters) steady.insert(p.name.text);
+    for (const Input& i : scene.inputs) steady.insert(i.name.text);
     std::map<Letter, std::string> result;
-    for (const auto& [letter, dots] : all) {
-        const auto quantity = quantity_of(letter);
-        const auto name = letters.name_of(letter);
-        if (!quantity || !name || !letters.is_of_scene(*name) || *quantity == MechanicalQuantity::momentum ||
-            *quantity == MechanicalQuantity::force)
-            continue;
-        const Uses uses = uses_of(letter, written);
-        if (uses.is_energy && uses.otherwise == 0) result.emplace(letter, letters.name_of(*quantity));
+    std::set<Letter> others;
+    for (const WrittenStatement& statement : written.statements) {
+        std::map<Letter, int> all;
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+        const bool is_accelerated_here = std::any_of(statement.sides.begin(), statement.sides.end(),
+                                                     [](const MathPtr& side) { return is_accelerated(*side); });
+        for (const auto& [letter, dots] : all) {
+            const auto quantity = quantity_of(letter);
+            const auto name = letters.name_of(letter);
+            if (!quantity || !name || !steady.contains(*name) || *quantity == MechanicalQuantity::momentum ||
+                *quantity == MechanicalQuantity::force)
+                continue;
+            const bool is_other =
+                is_accelerated_here ||
+                std::any_of(statement.sides.begin(), statement.sides.end(),
+                            [&](const MathPtr& side) { return stands_otherwise(*side, letter, true); });
+            if (is_other)
+                others.insert(letter);
+            else
+                result.emplace(letter, letters.name_of(*quantity));
+        }
     }
+    std::erase_if(result, [&](const auto& item) { return others.contains(item.first); });
     return result;
 }
 
@@ -271,8 +261,16 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
         result.told[text] = name;
     }
     result.letters = with_authors_letters(std::move(result.letters), written);
-    for (const auto& [letter, name] : energies_in_place_of_names(written, result.letters))
-        if (!result.given.contains(letter)) result.letters.bind(letter, name);
+    for (const auto& [letter, name] : energies_in_place_of_names(scene, written, result.letters)) {
+        if (result.given.contains(letter)) continue;
+        Letters otherwise = result.letters;
+        otherwise.bind(letter, name);
+        if (score_of(system, written, otherwise) <= score_of(system, written, result.letters)) continue;
+        result.remarks.push_back(
+            say("{} is read as the energy or Lagrangian that usually has this letter, not as the scene's {}",
+                shown(letter), result.letters.name_of(letter).value_or("")));
+        result.letters = std::move(otherwise);
+    }
     for (const Letter& letter : perhaps_forces(written, result.letters)) {
         Letters otherwise = result.letters;
         otherwise.leave_open(letter);

@@ -52,22 +52,16 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs, bool 
 
 namespace {
 
-/// What else than a generalized momentum may be called the angular momentum: a sum of some, x p_y − y p_x; of each
-/// also what it is for a unit of mass, r² φ'.
-std::vector<ex> other_angular_momenta(const Mechanism& m, const std::vector<ex>& momenta) {
-    std::vector<ex> result;
-    constexpr std::size_t most_summed = 4;
-    const std::size_t n = std::min(momenta.size(), most_summed);
-    for (std::size_t chosen = 1; chosen < (std::size_t{1} << n); ++chosen) {
-        ex sum = 0;
-        for (std::size_t i = 0; i < n; ++i)
-            if ((chosen >> i) & 1) sum += momenta[i];
-        result.push_back(sum);
-    }
+/// What else than a generalized momentum may be called the angular momentum: x p_y − y p_x; and for a unit of mass
+/// that one and, where it keeps its value, each momentum, as r² φ'.
+std::vector<ex> other_angular_momenta(const Mechanism& m, const std::vector<ex>& momenta, bool is_kept) {
+    std::vector<ex> result = is_kept ? momenta : std::vector<ex>{};
     for (std::size_t i = 0; i < momenta.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) result.push_back(m.q[j] * momenta[i] - m.q[i] * momenta[j]);
     for (const ex& momentum : std::vector<ex>(result))
         for (const auto& mass : m.parameters) {
+            const std::string name = mass.symbol.get_name();
+            if (!name.starts_with("m") && !name.starts_with("M")) continue;
             const ex of_unit = m.z->pull_back({{momentum, 1}}, {mass.symbol})[0];
             if (m.z->depends(of_unit, m.q) && !m.z->depends(of_unit, {mass.symbol})) result.push_back(of_unit);
         }
@@ -89,16 +83,20 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& letter, const Ma
     }
     const auto is_among = [&](const std::vector<ex>& candidates) {
         return std::any_of(candidates.begin(), candidates.end(), [&](const ex& momentum) {
-            return rows.is_identity(rows.row(stated - momentum)) == true ||
-                   rows.is_identity(rows.row(stated + momentum)) == true;
+            return rows.is_identity(rows.row(stated - momentum)) == true;
         });
     };
-    if (is_among(momenta) || is_among(other_angular_momenta(m, momenta))) {
+    if (is_among(momenta)) {
         line.status = LineStatus::right;
-        line.reason = is_among(momenta) ? say("a generalized momentum") : say("an angular momentum");
+        line.reason = say("a generalized momentum");
         return;
     }
     const bool is_kept = does_not_change(stated);
+    if (is_among(other_angular_momenta(m, momenta, is_kept))) {
+        line.status = LineStatus::right;
+        line.reason = say("an angular momentum");
+        return;
+    }
     if (!is_kept && speaks_of_conservation(heard_.around)) {
         line.status = LineStatus::mistake;
         line.reason = say("it does not keep its value");

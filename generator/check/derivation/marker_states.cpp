@@ -149,7 +149,7 @@ bool Marker::is_steady_value(const Math& side, const Math& letter) {
     const Lone last = lone_letter(*statement_->sides.back());
     const bool is_chain_to_constant = statement_->sides.size() > 2 && side.dots > 0 && last.letter != nullptr &&
                                       is_word_for_constant(last.letter->letter.base);
-    const bool is_start = speaks_of_start(heard_.around);
+    const bool is_start = speaks_of_start(side.dots == 0 ? heard_.around : last_sentence(statement_->words));
     const bool is_said = heard_.steady_lines > 0 || heard_.condition_lines > 0 || is_chain_to_constant ||
                          is_start || speaks_of_constant_value(heard_.around);
     if (!is_said || side.kind != Kind::letter || side.dots > 1 || letter.kind != Kind::letter || letter.dots > 0)

@@ -65,7 +65,6 @@ void Marker::verify() {
         if (line.status == LineStatus::mistake) find_slip(line, notes, known);
     }
     for (std::size_t k = 0; k < lines.size(); ++k) withhold_unexplained(k);
-    if (held_.empty()) return;
     for (MarkedLine& line : lines) name_held(line);
 }
 
@@ -186,20 +185,14 @@ void Marker::withhold_unexplained(std::size_t k) {
     }
     const bool is_refuted = line.status == LineStatus::mistake && line.checked.verdict == Verdict::refuted;
     if (!is_refuted || notes_[k].is_sure) return;
-    const bool is_rest_of_line =
-        k > 0 && lines[k - 1].status == LineStatus::not_understood && lines[k - 1].line == line.line;
-    const auto withhold = [&](std::string reason) {
-        line.status = LineStatus::undecided;
-        line.reason = std::move(reason);
-        line.checked = {};
-        line.term.clear();
-        line.right.clear();
-    };
-    if (is_rest_of_line) return withhold(say("what stands before it in this line was not understood"));
     if (is_plausible(line.checked.likely, notes_[k].claim)) return;
     const bool is_of_units = line.checked.likely && line.checked.likely->kind == "wrong_unit";
     if (has_one_reading(k) && !is_of_units) return;
-    withhold(say("as it was read it fails, and no small change makes it right: it may be meant otherwise"));
+    line.status = LineStatus::undecided;
+    line.reason = say("as it was read it fails, and no small change makes it right: it may be meant otherwise");
+    line.checked = {};
+    line.term.clear();
+    line.right.clear();
 }
 
 bool Marker::speaks_of_quantity(const LineNotes& notes) const {
@@ -255,10 +248,16 @@ void Marker::adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict) {
     locate_term(line, notes);
 }
 
-/// The words of a verdict with ∂U/∂θ as it was written, where a name has stood for its value.
+/// The words of a verdict with ∂U/∂θ as it was written, where a name has stood for its value; and with L for the
+/// Lagrangian where the scene has an L of its own.
 void Marker::name_held(MarkedLine& line) const {
+    std::map<std::string, std::string> names = held_;
+    for (const MechanicalQuantity quantity :
+         {MechanicalQuantity::kinetic, MechanicalQuantity::potential, MechanicalQuantity::lagrangian,
+          MechanicalQuantity::energy, MechanicalQuantity::hamiltonian})
+        if (const std::string name = letters_.name_of(quantity); name.size() > 1) names[name.substr(0, 1)] = name;
     const auto rename = [&](std::string& text) {
-        for (const auto& [written, name] : held_)
+        for (const auto& [written, name] : names)
             for (std::size_t at = text.find(name); at != std::string::npos;
                  at = text.find(name, at + written.size())) {
                 const std::size_t end = at + name.size();

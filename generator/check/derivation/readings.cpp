@@ -122,7 +122,7 @@ bool calls_coordinate_q(const Letters& letters, const Written& written) {
 bool states_force_function(const Written& written) {
     return std::any_of(
         written.statements.begin(), written.statements.end(), [](const WrittenStatement& statement) {
-            if (speaks_of_force_function(statement.words) && !denies(statement.words)) return true;
+            if (asserts_force_function(statement.words)) return true;
             for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k) {
                 const Letter* const V = alone_in(*statement.sides[k]);
                 const Math& other = *statement.sides[k + 1];

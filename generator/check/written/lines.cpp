@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "check/written/commands.hpp"
 #include "check/written/document.hpp"
+#include "check/written/long_dashes.hpp"
 #include "check/written/parser.hpp"
 #include "check/written/statements.hpp"
 #include "check/written/word_kinds.hpp"
@@ -363,18 +364,9 @@ std::vector<WrittenToken> DocumentReader::plain_tokens(std::size_t begin, std::s
                (tokens[i + 2].offset + tokens[i + 2].length < tokens[i + 3].offset ||
                 source(i + 3).starts_with(' '));
     };
-    const auto has_relation = [&](std::size_t from, std::size_t to) {
-        return std::any_of(tokens.begin() + static_cast<std::ptrdiff_t>(from),
-                           tokens.begin() + static_cast<std::ptrdiff_t>(to),
-                           [](const WrittenToken& token) { return token.kind == LineKind::relation; });
-    };
-    const auto is_long_minus = [&](std::size_t i) {  // of a book that was scanned: r² — m g r cos θ = E
-        return tokens[i].kind == LineKind::stray && source(i) == "—" && !joined.empty() &&
-               joined.back().kind != LineKind::text && i + 1 < tokens.size() && !is_clear_prose(i + 1) &&
-               !is_clear_prose(i + 2) && !(has_relation(0, i) && has_relation(i, tokens.size()));
-    };
+    const LongDashes dashes(tokens, source);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
-        if (is_long_minus(i)) {
+        if (dashes.is_minus(i)) {
             joined.push_back(tokens[i]);
             joined.back().kind = LineKind::minus;
             continue;

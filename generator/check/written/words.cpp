@@ -158,9 +158,14 @@ bool names_part_of_forces(std::string_view words) {
         "弾性力による*|摩擦力の仕事*|摩擦力による*|摩擦による*|減衰力の仕事*|減衰力による*");
 }
 
-bool speaks_of_force_function(std::string_view words) {
+bool asserts_force_function(std::string_view words) {
+    const std::string sentence = in_lower_case(last_sentence(words));
+    if (denies(words) ||
+        has_phrase(sentence,
+                   "not|no|without|nicht|keine|pas|sans|non|senza|não|sem|nie|inte|не|без|不*|没有*|无*"))
+        return false;
     return has_phrase(
-        in_lower_case(words),
+        sentence,
         "force function|force-function|work function|kräftefunktion|kraftfunktion|fonction de force|"
         "fonction de forces|fonction des forces|función de fuerza|función de fuerzas|funzione delle forze|"
         "funzione di forza|função de força|função das forças|funkcja sił|kraftfunktionen|силовая функция|"

@@ -92,8 +92,8 @@ bool speaks_of_start_from_rest(std::string_view words);
 /// "It is released at θ = α", "initially θ' = β".
 bool speaks_of_start(std::string_view words);
 
-/// "The force function is": U, of which −U is the potential energy.
-bool speaks_of_force_function(std::string_view words);
+/// "The force function is", and not "we do not use the force function": U, of which −U is the potential energy.
+bool asserts_force_function(std::string_view words);
 
 /// "The moment of inertia about the hinge is".
 bool speaks_of_inertia(std::string_view words);

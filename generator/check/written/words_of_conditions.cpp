@@ -28,24 +28,29 @@ bool begins_condition(std::string_view words) {
 
 bool says_held(std::string_view words) {
     const std::string sentence = last_sentence(words);
-    if (denies(sentence) || has_phrase(sentence,
-                                       "is not|are not|nicht|n'est pas|no está|non è|não está|nie jest|är inte|"
-                                       "не закреплен*|未*|不固定*|没有*"))
-        return false;
-    if (has_phrase(sentence,
-                   "clamped|locked|blocked|held fast|festgehalten|arretiert|blockiert|bloqué*|immobilis*|"
-                   "bloquead*|bloccat*|travad*|unieruchomion*|hålls fast|låst|удержива*|夹住*|锁定*"))
-        return true;
+    const bool is_denied =
+        denies(sentence) ||
+        has_phrase(
+            sentence,
+            "not|no longer|never|isn't|aren't|cannot|can't|nothing|was|were|before|once|let go|free|freed|"
+            "nicht|nie|niemals|war|waren|wurde|vorher|n'est|plus|jamais|était|no|nunca|ya no|era|estaba|non|"
+            "mai|più|não|nie|już|inte|aldrig|не|больше|никогда|был|была|было|未*|不固定*|没有*|不再*|曾*|松开*");
+    if (is_denied) return false;
+    // "Sanity check: block clamped"
+    constexpr std::ptrdiff_t most_words = 5;
+    const bool is_note = std::count(sentence.begin(), sentence.end(), ' ') < most_words;
     const bool is_conditional =
-        begins_condition_of_state(sentence) ||
+        is_note || begins_condition_of_state(sentence) ||
         has_phrase(
             sentence,
             "let|assume|assuming|with|mit|angenommen|soit|avec|con|sea|sia|com|seja|z|med|设*|令*|时*|とき*");
     return is_conditional &&
            has_phrase(sentence,
-                      "is fixed|is held|are held|clamp*|does not move|does not turn|fixiert|eingespannt|"
-                      "est fixe|est fixé*|maintenu*|bloque|está fij*|no se mueve|è fiss*|não se move|fixad*|"
-                      "nie porusza się|закреплён*|закреплен*|неподвижн*|不动*|固定*|固定され*|動かない*");
+                      "is fixed|is held|are held|clamp*|locked|blocked|held fast|does not move|does not turn|"
+                      "festgehalten|fixiert|arretiert|blockiert|eingespannt|不动*|固定*|夹住*|锁定*|"
+                      "est fixe|est fixé*|maintenu*|bloque|bloqué*|immobilis*|está fij*|bloquead*|no se mueve|"
+                      "è fiss*|bloccat*|não se move|travad*|fixad*|unieruchomion*|nie porusza się|hålls fast|låst|"
+                      "закреплён*|закреплен*|неподвижн*|удержива*|固定され*|動かない*");
 }
 
 bool states_condition(std::string_view words) {
@@ -70,7 +75,9 @@ bool states_condition(std::string_view words) {
         "står stilla|försvinner|закреплён*|закреплен*|неподвижен|неподвижна|неподвижно|неподвижны|не движется|"
         "не вращается|покоится|находится в покое|удержива*|обращается в нуль|обращается в ноль|заторможен*|"
         "動かない*|静止している*|静止していれば*|回らない*|回転しない*|止まって*|0になる*");
-    return is_conditional && holds_something;
+    const bool is_holding = has_phrase(
+        sentence, "holding|hold the|being held|being blocked|being clamped|keeping|hält man|wird*festgehalten");
+    return is_holding || (is_conditional && holds_something);
 }
 
 bool is_conditional(std::string_view words) {

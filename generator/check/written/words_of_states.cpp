@@ -179,10 +179,10 @@ bool speaks_of_start(std::string_view words) {
     return speaks_of_start_from_rest(words) ||
            has_phrase(
                in_lower_case(words),
-               "start|starts|started|starting|released|release|let go|thrown|initially|initial*|begins|at the "
-               "beginning|losgelassen|startet|beginnt|anfangs|anfänglich*|am anfang|zu beginn|lâché*|abandonné*|"
+               "starts at|started at|is started|released|release|let go|thrown|initially|at "
+               "the beginning|losgelassen|anfangs|anfänglich*|am anfang|zu beginn|lâché*|abandonné*|"
                "initialement|au départ|se suelta|inicialmente|al principio|lasciat*|rilasciat*|inizialmente|"
-               "largad*|solt*|no início|puszczon*|początkowo|na początku|släpps|börjar|释放*|初始*|开始时*|起始*|"
+               "largad*|solt*|no início|puszczon*|początkowo|na początku|släpps|释放*|初始*|开始时*|起始*|"
                "отпуск*|отпущ*|начальн*|в начале|放す*|放した*|初め*|はじめ*|最初*");
 }
 

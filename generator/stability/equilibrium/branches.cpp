@@ -157,7 +157,8 @@ private:
         for (SpecialPoint& point : result_.points)
             for (std::size_t k = 0; k < result_.branches.size(); ++k) {
                 const std::optional<double> value = result_.branches[k].family_at;
-                if (!value || std::abs(point.parameter - *value) > same_crossing) continue;
+                const double range = options_.to - options_.from;
+                if (!value || std::abs(point.parameter - *value) > same_crossing * range) continue;
                 Instant<long double> there = at(point.parameter);
                 there.q.assign(point.q.begin(), point.q.end());
                 if (!is_on(curves_[k], tracer.place(there, *value))) continue;

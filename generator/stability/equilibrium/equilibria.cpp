@@ -33,7 +33,7 @@ void check_inputs(const Mechanism& m, const Residuals& residuals, const Start& s
         for (const double later : {0.37, 1.0, 2.71}) {
             State<double> now = start.state(), then = now;
             then.t += later;
-            now.unknown.resize(static_cast<std::size_t>(residuals.inputs.back()) + 1);
+            now.unknown.resize(residuals.input_places());
             then.unknown = now.unknown;
             const double a = interpret(residuals.program, now)[node], b = interpret(residuals.program, then)[node];
             if (std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b))) continue;
@@ -92,7 +92,7 @@ StateKnown known_at(const Derived& d, const SteadyProblem& problem, const Start&
     point.q = certain(at.q);
     point.u = certain(at.u);
     const RealBallVector inputs = certain(at.inputs);
-    if (!residuals.inputs.empty()) point.inputs.resize(static_cast<std::size_t>(residuals.inputs.back()) + 1);
+    point.inputs.resize(residuals.input_places());
     for (std::size_t k = 0; k < inputs.size(); ++k)
         point.inputs[static_cast<std::size_t>(residuals.inputs[k])] = inputs[k];
     return disc_around(residuals, split, essential, {}, point, proved_radius);

@@ -121,7 +121,7 @@ std::vector<bool> find_angles(const SteadyProblem& problem) {
                                  .q = problem.start().q,
                                  .qdot = problem.start().u,
                                  .qddot = {}};
-        if (!r.inputs.empty()) state.unknown.resize(static_cast<std::size_t>(r.inputs.back()) + 1, 0.7L);
+        state.unknown.resize(r.input_places(), 0.7L);
         for (long double& q : state.q) q += unit();
         for (long double& u : state.qdot) u += unit();
         const std::vector<long double> here = interpret(r.program, state);

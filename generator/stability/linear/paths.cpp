@@ -79,7 +79,7 @@ std::vector<PuiseuxSeries> on_path(const Residuals& r, const Instant<long double
     for (const long double x : at.q) state.q.push_back(variable(x));
     for (const long double x : at.u) state.qdot.push_back(variable(x));
     state.t = variable(at.t);
-    if (!r.inputs.empty()) state.unknown.resize(static_cast<std::size_t>(r.inputs.back()) + 1);
+    state.unknown.resize(r.input_places());
     for (std::size_t k = 0; k < r.inputs.size(); ++k)
         state.unknown[static_cast<std::size_t>(r.inputs[k])] = variable(at.inputs[k]);
     return interpret(r.program, state);

@@ -107,12 +107,12 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     // A state is no rate of a cyclic coordinate: it has to stay, where it has a rate; elsewhere it stays as given.
     const Program& program = residuals_.program;
     for (Index i = 0; i < p; ++i)
-        if (split.u[i] >= residuals_.s - residuals_.states && !program[residuals_.forcing[split.u[i]]].is_number())
+        if (split.u[i] >= residuals_.s - residuals_.states && !program.is_zero(residuals_.forcing[split.u[i]]))
             moves(nr + i, i) = 1;
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
     std::vector<int> still;
     for (Index i = 0; i < p; ++i)
-        if (split.u[i] >= residuals_.s - residuals_.states && program[residuals_.forcing[split.u[i]]].is_number())
+        if (split.u[i] >= residuals_.s - residuals_.states && program.is_zero(residuals_.forcing[split.u[i]]))
             still.push_back(split.u[i]);
     kept_states_ = LongMatrix::Zero(static_cast<Index>(still.size()), residuals_.s);
     for (std::size_t k = 0; k < still.size(); ++k) kept_states_(static_cast<Index>(k), still[k]) = 1;
@@ -317,7 +317,7 @@ Start SteadyProblem::start_at(const Start& like, const Instant<long double>& at)
     for (std::size_t i = 0; i < result.parameters.size(); ++i)
         result.parameters[i] = static_cast<double>(at.parameters[i]);
     State<long double> state{.parameters = at.parameters, .t = at.t, .q = at.q, .qdot = at.u, .qddot = {}};
-    if (!residuals_.inputs.empty()) state.unknown.resize(residuals_.inputs.back() + 1);
+    state.unknown.resize(residuals_.input_places());
     for (std::size_t k = 0; k < residuals_.inputs.size(); ++k) state.unknown[residuals_.inputs[k]] = at.inputs[k];
     const std::vector<long double> value = interpret(residuals_.program, state);
     for (std::size_t k = 0; k < result.speeds.size(); ++k) result.speeds[k] = static_cast<double>(at.u[k]);

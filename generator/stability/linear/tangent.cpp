@@ -54,8 +54,7 @@ private:
         return static_cast<Index>(at.q.size() + at.u.size() + 1 + r.inputs.size());
     }
     static State<Jet<Real>> varied(const Residuals& r, const Instant<Real>& at) {
-        const std::size_t unknowns = r.inputs.empty() ? 0 : static_cast<std::size_t>(r.inputs.back()) + 1;
-        return Varied<Real>(r, at, unknowns).state;
+        return Varied<Real>(r, at, r.input_places()).state;
     }
 
     /// If a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of
@@ -371,7 +370,7 @@ Instant<Real> instant_of(const Residuals& r, const State<double>& state) {
                      .inputs = {},
                      .t = state.t};
     State<Real> only{.parameters = at.parameters, .t = at.t, .q = at.q, .qdot = at.u, .qddot = {}};
-    only.unknown.resize(r.inputs.empty() ? 0 : r.inputs.back() + 1);
+    only.unknown.resize(r.input_places());
     const std::vector<Real> value = interpret(r.program, only);
     for (const int k : r.inputs) at.inputs.push_back(value[r.input_values[k]]);
     return at;

@@ -30,7 +30,9 @@ struct Residuals {
     int n, s, holonomic, kept;  ///< coordinates, speeds, rows of φ, rows of A
     int states;                 ///< how many of the speeds, the last ones, are first-order states of the scene
     std::vector<int> mass, forcing, row, gamma, rate, position, velocity;
-    std::vector<int> inputs;        ///< 3·index + order of the inputs that occur
+    std::vector<int> inputs;  ///< 3·index + order of the inputs that occur
+    /// How many unknowns of the program there are, with those that do not occur.
+    std::size_t input_places() const { return inputs.empty() ? 0 : static_cast<std::size_t>(inputs.back()) + 1; }
     std::vector<int> input_values;  ///< nodes, in parameters and t
     std::vector<int> geometry;      ///< all nodes that `position` and `velocity` need
     std::vector<int> steady;        ///< all nodes that the balance of a steady motion needs
