@@ -302,12 +302,12 @@ py::array_t<double> states_at(Motion& motion, const Numbers& t) {
 void add_answers(py::module_& module) {
     module.def("ask", asked);
     module.def("listen", listen);
-    module.def("derive",
-               [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
-                   const SymbolicTurn turn;
-                   return Held<DerivedScene>(
-                       new DerivedScene(derive(parse_scene(text, file), {.by = by, .reactions = reactions})));
-               });
+    module.def("derive", [](const std::string& text, const std::string& file, const std::string& by,
+                            bool reactions, const std::vector<std::string>& at) {
+        const SymbolicTurn turn;
+        return Held<DerivedScene>(new DerivedScene(
+            derive(with_given(parse_scene(text, file), {.at = at}), {.by = by, .reactions = reactions})));
+    });
     module.def("simulate",
                [](const std::string& text, const std::string& file, const std::string& by,
                   const std::string& method, const std::array<std::optional<double>, 5>& numbers, long budget,

@@ -56,6 +56,7 @@ public:
     void take_units(const Scene& scene) {
         if (has("at")) {
             Json values = Json::array();
+            typed_at_ = texts("at");
             for (const auto& [name, value] : exact_overrides_of(texts("at"), scene))
                 values.push_back(fmt::format("{}={}", name, value));
             options_["at"] = std::move(values);
@@ -93,6 +94,8 @@ public:
     Overrides at() const { return overrides_of(texts("at"), Scene()); }
     /// The values as they were written.
     ExactOverrides exact_at() const { return exact_overrides_of(texts("at"), Scene()); }
+    /// The same in the units of the scene.
+    const Texts& typed_at() const { return typed_at_; }
     /// [name, from, to] or [name, from, to, count]
     Axis axis(const char* name, std::size_t count) const { return axis_of(options_.at(name), count); }
     std::vector<Axis> axes(const char* name, std::size_t count) const {
@@ -140,6 +143,7 @@ private:
     }
 
     Json options_;
+    Texts typed_at_;
 };
 
 template <typename Value>
@@ -171,21 +175,22 @@ Answer do_derivation(Scene scene, const Asked& asked) {
 }
 
 Answer do_check(Scene scene, const Asked& asked) {
+    scene = asked.given(std::move(scene));
     if (asked.has("derivation")) return do_derivation(std::move(scene), asked);
     if (asked.has("claims")) scene = with_claims(std::move(scene), asked.text("claims"), "claims");
     return shown(check(std::move(scene), asked.by()));
 }
 
-Answer do_audit(Scene scene, const Asked&) {
-    return shown(audit(std::move(scene)));
+Answer do_audit(Scene scene, const Asked& asked) {
+    return shown(audit(asked.given(std::move(scene))));
 }
 
-Answer do_agree(Scene scene, const Asked&) {
-    return shown(agree(std::move(scene)));
+Answer do_agree(Scene scene, const Asked& asked) {
+    return shown(agree(asked.given(std::move(scene))));
 }
 
-Answer do_impact(Scene scene, const Asked&) {
-    return shown(impact(std::move(scene)));
+Answer do_impact(Scene scene, const Asked& asked) {
+    return shown(impact(asked.given(std::move(scene))));
 }
 
 Answer do_eval(Scene scene, const Asked& asked) {
@@ -273,14 +278,14 @@ Answer do_inertia(Scene scene, const Asked& asked) {
         inertia(std::move(scene), {.of = asked.texts("of"), .about = asked.text("about"), .at = asked.at()}));
 }
 
-Answer do_identify(Scene scene, const Asked&) {
-    return shown(identify(std::move(scene)));
+Answer do_identify(Scene scene, const Asked& asked) {
+    return shown(identify(asked.given(std::move(scene))));
 }
 
 Answer do_fmu(Scene scene, const Asked& asked) {
     const std::string path = asked.text("path");
     const FunctionalUnit unit =
-        functional_unit(std::move(scene), {.by = asked.by(), .version = asked.whole("fmi", 2)});
+        functional_unit(asked.given(std::move(scene)), {.by = asked.by(), .version = asked.whole("fmi", 2)});
     return {.json = as_json(unit, path),
             .text = as_text(unit, path),
             .warnings = unit.warnings,
@@ -288,17 +293,18 @@ Answer do_fmu(Scene scene, const Asked& asked) {
 }
 
 Answer do_emit(Scene scene, const Asked& asked) {
-    const Emission e = emission(std::move(scene), {.name = asked.text("name"),
-                                                   .by = asked.by(),
-                                                   .fold = asked.flag("fold"),
-                                                   .jacobian = asked.flag("jacobian"),
-                                                   .batch = asked.flag("batch"),
-                                                   .language = language_of(asked.text("language")),
-                                                   .functions = asked.texts("functions"),
-                                                   .frames = asked.texts("frames"),
-                                                   .wrenches = asked.texts("wrenches"),
-                                                   .standalone = asked.flag("standalone"),
-                                                   .casadi = asked.flag("casadi")});
+    const Emission e = emission(asked.given(std::move(scene)), {.name = asked.text("name"),
+                                                                .by = asked.by(),
+                                                                .fold = asked.flag("fold"),
+                                                                .jacobian = asked.flag("jacobian"),
+                                                                .batch = asked.flag("batch"),
+                                                                .language = language_of(asked.text("language")),
+                                                                .functions = asked.texts("functions"),
+                                                                .frames = asked.texts("frames"),
+                                                                .wrenches = asked.texts("wrenches"),
+                                                                .standalone = asked.flag("standalone"),
+                                                                .at = asked.typed_at(),
+                                                                .casadi = asked.flag("casadi")});
     Answer answer{.json = {}, .warnings = e.warnings};
     std::vector<std::string> paths;
     for (const SourceFile& file : files_of(e)) {
@@ -392,8 +398,8 @@ Answer do_report(Scene scene, const Asked& asked) {
             .files = {{"html", as_html(all, {.version = ALEMBERT_VERSION, .by = asked.by()})}}};
 }
 
-Answer do_draw(Scene scene, const Asked&) {
-    return {.json = Json::object(), .files = {{"svg", figure_of(scene)}}};
+Answer do_draw(Scene scene, const Asked& asked) {
+    return {.json = Json::object(), .files = {{"svg", figure_of(asked.given(std::move(scene)))}}};
 }
 
 using VerbFunction = Answer (*)(Scene scene, const Asked& asked);

@@ -114,6 +114,41 @@ TEST_CASE("together: options that exclude each other, or need another one, are r
     refused({"bench", "--method", "dop853", "--budget", "5"}, "", 4);
 }
 
+TEST_CASE("together: every verb of a scene takes values in place of the scene's") {
+    const std::string scene = temporary("on_two_sides.toml", R"toml(
+[parameters]
+m = 2
+k = 5
+a = 1
+[coordinates]
+x = 1
+[energy]
+kinetic = "m*x'^2/2"
+potential = "k*(sqrt(x^2) - a)^2/2"
+[[claim]]
+equation = "m*x'' + k*(x - a) = 0"
+)toml");
+    const auto printed = [&](std::vector<std::string> command) {
+        const auto result = run(command);
+        CHECK(result.exit == 0);
+        return result.out;
+    };
+    CHECK(printed({"derive", scene}).find("k*(x-a)") != std::string::npos);
+    CHECK(printed({"derive", scene, "--at", "x=-1"}).find("k*(a+x)") != std::string::npos);
+    CHECK(run({"check", scene}).exit == 0);
+    CHECK(run({"check", scene, "--at", "x=-1"}).exit == 1);
+    CHECK(run({"audit", scene, "--at", "x=-1"}).exit == 0);
+    const std::string folder = temporary_folder("emitted_at");
+    CHECK(run({"emit", scene, "-o", folder, "--at", "x=-3", "m=7"}).exit == 0);
+    const std::string header = contents(folder + "/on_two_sides.hpp");
+    CHECK(header.find("double m = 7;") != std::string::npos);
+    CHECK(header.find("    -3,  // x") != std::string::npos);
+    CHECK(header.find("--at x=-3 --at m=7") != std::string::npos);
+    CHECK(run({"emit", scene, "--fmu", folder + ".fmu", "--at", "x=-3"}).exit == 0);
+    for (const char* const verb : {"agree", "impact", "identify", "audit", "derive", "check"})
+        refused({verb, "--at", "y=1"}, "'y'");
+}
+
 TEST_CASE("together: an empty value is refused, and so is one of an option that takes none") {
     refused({"simulate", "-o", ""}, "-o is given an empty value");
     refused({"simulate", "--svg="}, "--svg is given an empty value");

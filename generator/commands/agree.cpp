@@ -13,7 +13,7 @@ namespace alembert {
 namespace {
 
 int run_agree(const SceneOptions& options) {
-    const Agreed agreed = agree(scene_of(options.scene));
+    const Agreed agreed = agree(scene_of(options));
     warn(agreed.warnings);
     if (options.json)
         show(as_json(agreed));
@@ -29,7 +29,8 @@ void add_agree(CLI::App& app, Chosen& chosen) {
                                  {.name = "agree",
                                   .about = say("derives by every formalism that applies, and proves them equal"),
                                   .example = "alembert check scenes/textbook/sled.toml --formalisms"},
-                                 run_agree);
+                                 run_agree,
+                                 [](Verb& verb, SceneOptions& options) { add_given_state(verb, options.given); });
 }
 
 }  // namespace alembert

@@ -11,7 +11,7 @@ namespace alembert {
 namespace {
 
 int run_audit(const SceneOptions& options) {
-    const Audited audited = audit(scene_of(options.scene));
+    const Audited audited = audit(scene_of(options));
     warn(audited.warnings);
     if (options.json)
         show(as_json(audited));
@@ -30,8 +30,10 @@ void add_audit(CLI::App& app, Chosen& chosen) {
                                  {.name = "audit",
                                   .about = say("examines the constraints: kinds, rank, redundancy"),
                                   .example = "alembert audit scenes/textbook/sled.toml"},
-                                 run_audit,
-                                 [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
+                                 run_audit, [](Verb& verb, SceneOptions& options) {
+                                     add_given_state(verb, options.given);
+                                     verb.take("--full", options.full);
+                                 });
 }
 
 }  // namespace alembert

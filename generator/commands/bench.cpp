@@ -18,7 +18,6 @@ namespace {
 
 struct BenchVerb : SceneOptions {
     BenchOptions options;
-    GivenValues given;
     std::string csv, svg;
 };
 
@@ -29,7 +28,7 @@ int run(const BenchVerb& verb) {
     options.wishes.by = verb.by;
     Progress progress;
     options.wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Bench measured = bench(with_given(scene_of(verb.scene), verb.given), options);
+    const Bench measured = bench(scene_of(verb), options);
     progress.wipe();
     warn(measured.warnings);
     if (!verb.csv.empty()) write_file(verb.csv, as_csv(measured), {verb.scene});

@@ -166,8 +166,10 @@ int run(const CheckOptions& options) {
     check_output(options.page, FileForm::page, {options.scene, options.claims});
     check_output(options.csv, FileForm::csv, {options.scene, options.claims});
     check_output(options.json_file, FileForm::json, {options.scene, options.claims});
+    if (options.drafts && !options.given.at.empty())
+        throw ModelError(say("--at gives values of a scene, and --scene-from drafts one; leave one of them out"));
     if (options.drafts) return run_draft(options);
-    Scene scene = scene_of(options.scene);
+    Scene scene = scene_of(options);
     if (options.claims.empty()) {
         if (!options.page.empty() || !options.csv.empty() || !options.letters.empty())
             throw ModelError(say("--html, -o and --letters are for a derivation; name its file"));
@@ -194,9 +196,7 @@ void add_check(CLI::App& app, Chosen& chosen) {
                                 "of these; - "
                                 "for standard input; default: the scene's [[claim]]s"))
                 .type_name(values::claims);
-            verb.add_flag("--complete", options.complete,
-                          say("the exit code is 2 also if the claims that hold do not "
-                              "determine the motion"));
+            verb.add_flag("--complete", options.complete, say("exit code 2 also if the motion is not determined"));
             verb.add_option("--letters", options.letters, say("what a letter stands for, as in \"\\\\ell=l\""))
                 .type_name(values::assignment);
             verb.add_flag("--scene-from", options.drafts,
@@ -206,6 +206,7 @@ void add_check(CLI::App& app, Chosen& chosen) {
             verb.add_option("--json-file", options.json_file, say("the JSON object too, into this file"))
                 .type_name(values::file);
             verb.take("--output", options.csv, say("a row for each derivation, as a table"));
+            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

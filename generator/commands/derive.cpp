@@ -23,8 +23,8 @@ int run(const DeriveVerb& options) {
     page.full = options.full;
     check_output(options.draw, FileForm::picture, {options.scene});
     Progress progress;
-    const DerivedScene d = derive(scene_of(options.scene),
-                                  {.by = options.by,
+    const DerivedScene d =
+        derive(scene_of(options), {.by = options.by,
                                    .reactions = options.reactions,
                                    .full = options.full || options.json,
                                    .done = [&progress](double part) { progress.at(say("deriving"), part); }});
@@ -46,6 +46,7 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                                 .about = say("prints the equations of motion in the form of a textbook"),
                                 .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
                                run, [](Verb& verb, DeriveVerb& options) {
+                                   add_given_state(verb, options.given);
                                    verb.take("--by", options.by);
                                    verb.take("--format", options.page.format);
                                    verb.add_flag("--steps", options.page.steps,

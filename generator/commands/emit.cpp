@@ -29,7 +29,8 @@ int run(const EmitVerb& options) {
     wishes.frames = options.frames;
     wishes.wrenches = options.wrenches;
     wishes.language = language_of(options.language);
-    const Emission e = emission(scene_of(options.scene), wishes);
+    wishes.at = options.given.at;
+    const Emission e = emission(scene_of(options), wishes);
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
@@ -83,13 +84,12 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                     "--frame", options.frames,
                     say("a point or body, or P@F: pose, Jacobian, velocity, acceleration; may be repeated"))
                 .type_name(values::point);
-            verb.add_option(
-                    "--wrench", options.wrenches,
-                    say("a point or body, or P@F: an external force and torque on it as parameters; may be "
-                        "repeated"))
+            verb.add_option("--wrench", options.wrenches,
+                            say("a point or body, or P@F: force and torque as parameters"))
                 .type_name(values::point);
             verb.add_flag("--batch", options.emission.batch,
                           say("also the same functions for eight systems at once"));
+            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

@@ -19,7 +19,7 @@ struct FmuVerb : SceneOptions {
 int run(const FmuVerb& options) {
     check_output(options.file, FileForm::unit, {options.scene});
     const FunctionalUnit unit =
-        functional_unit(scene_of(options.scene), {.by = options.by, .version = options.version == "3" ? 3 : 2});
+        functional_unit(scene_of(options), {.by = options.by, .version = options.version == "3" ? 3 : 2});
     warn(unit.warnings);
     write_file(options.file, unit.archive, {options.scene});
     if (options.json)
@@ -43,6 +43,7 @@ void add_fmu(CLI::App& app, Chosen& chosen) {
                 .required();
             verb.add_option("--fmi", options.version, say("the version of the interface: 2 (default) or 3"))
                 .type_name(values::interface_version);
+            add_given_state(verb, options.given);
             verb.take("--by", options.by);
         });
 }

@@ -9,7 +9,7 @@ namespace alembert {
 namespace {
 
 int run_identify(const SceneOptions& options) {
-    const Identification found = identify(scene_of(options.scene));
+    const Identification found = identify(scene_of(options));
     warn(found.warnings);
     if (options.json)
         show(as_json(found));
@@ -25,7 +25,8 @@ void add_identify(CLI::App& app, Chosen& chosen) {
                                  {.name = "identify",
                                   .about = say("tells which sums of masses and inertias motion shows"),
                                   .example = "alembert eval scenes/gallery/six_joint_arm.toml --identify"},
-                                 run_identify);
+                                 run_identify,
+                                 [](Verb& verb, SceneOptions& options) { add_given_state(verb, options.given); });
 }
 
 }  // namespace alembert

@@ -10,7 +10,7 @@ namespace alembert {
 namespace {
 
 int run_impact(const SceneOptions& options) {
-    const Struck struck = impact(scene_of(options.scene));
+    const Struck struck = impact(scene_of(options));
     warn(struck.warnings);
     if (options.json)
         show(as_json(struck));
@@ -26,8 +26,10 @@ void add_impact(CLI::App& app, Chosen& chosen) {
                                  {.name = "impact",
                                   .about = say("calculates rates after impulses, sudden constraints"),
                                   .example = "alembert eval scenes/textbook/struck_rods.toml --impact"},
-                                 run_impact,
-                                 [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
+                                 run_impact, [](Verb& verb, SceneOptions& options) {
+                                     add_given_state(verb, options.given);
+                                     verb.take("--full", options.full);
+                                 });
 }
 
 }  // namespace alembert

@@ -19,7 +19,6 @@ namespace {
 
 struct ReportVerb : SceneOptions {
     std::string output;
-    GivenValues given;
     RunOptions wishes{.budget = 3'000'000};
     bool moves = true, measures = false, opens = false;
     std::string section;

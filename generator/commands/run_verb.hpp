@@ -10,7 +10,6 @@ namespace alembert {
 
 struct RunVerb : SceneOptions {
     RunOptions wishes;
-    GivenValues given;
     std::string output;  ///< a CSV file; empty for none
 };
 

@@ -40,7 +40,7 @@ int run(const SimulateVerb& verb) {
     wishes.by = verb.by;
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    Scene scene = with_given(scene_of(verb.scene), verb.given);
+    Scene scene = scene_of(verb);
     wishes.columns = shown_names(in_words_of(scene, verb.show));
     wishes.sensitivity = names_of(in_words_of(scene, verb.sensitivity));
     wishes.sensitivity_of = names_of(in_words_of(scene, verb.wanted));

@@ -62,7 +62,6 @@ Json points_as_json(const SweepVerb& verb) {
 SweepRequest request_of(const SweepVerb& verb, Scene scene, const std::string& journal = {}) {
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
-    scene = with_given(std::move(scene), verb.given);
     wishes.columns = shown_names(in_words_of(scene, verb.show));
     Grid points = points_of(verb, scene);
     for (const Axis& axis : points.axes)
@@ -151,7 +150,7 @@ private:
     const Grid& grid() const { return job_.sweep().grid; }
 
     SweepRequest request() {
-        SweepRequest asked = request_of(verb_, scene_of(verb_.scene), journal_beside(verb_.output));
+        SweepRequest asked = request_of(verb_, scene_of(verb_), journal_beside(verb_.output));
         asked.wishes.progress = [this](std::string_view what, double part) { progress_.at(what, part); };
         return asked;
     }

@@ -223,8 +223,12 @@ Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene) {
     return result;
 }
 
-void add_given_values(Verb& verb, GivenValues& given) {
+void add_given_state(Verb& verb, GivenValues& given) {
     verb.take("--at", given.at, say("in place of a value of the scene: l=2, \"theta'=1\""));
+}
+
+void add_given_values(Verb& verb, GivenValues& given) {
+    add_given_state(verb, given);
     verb.take("--input", given.inputs);
 }
 
@@ -244,6 +248,10 @@ Scene with_given(Scene scene, const GivenValues& given) {
     for (const auto& [name, value] : at)
         if (named.contains(name)) throw ModelError(say("'{}' is given by --input and by --at", name));
     return with_values(std::move(scene), at);
+}
+
+Scene scene_of(const SceneOptions& options) {
+    return with_given(scene_of(options.scene), options.given);
 }
 
 double number_of(const std::string& text) {

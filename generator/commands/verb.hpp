@@ -36,17 +36,18 @@ struct Chosen {
     std::function<int()> action;  ///< does the work and returns the exit code
 };
 
+/// What verbs take in place of values of the scene, as typed; inputs by those that integrate.
+struct GivenValues {
+    std::vector<std::string> at = {}, inputs = {};
+};
+
 /// The options that every verb takes, and those that many take.
 struct SceneOptions {
     std::string scene;
     bool json = false;
     bool full = false;  ///< whether a page may exceed two screens
     std::string by;     ///< a formalism; if empty, the program chooses
-};
-
-/// What the verbs that integrate take in place of values of the scene, as typed.
-struct GivenValues {
-    std::vector<std::string> at = {}, inputs = {};
+    GivenValues given = {};
 };
 
 void add_agree(CLI::App& app, Chosen& chosen);
@@ -83,6 +84,9 @@ Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene);
 
 /// The scene with the values of --at and the functions of --input (analysis/state/given_values.hpp).
 Scene with_given(Scene scene, const GivenValues& given);
+
+/// The scene of the file, with what is given for it.
+Scene scene_of(const SceneOptions& options);
 
 /// The same as typed, as expressions in SI units.
 ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene);
@@ -139,6 +143,9 @@ public:
 private:
     CLI::App* app_;
 };
+
+/// --at, of verbs that take the scene as it then is.
+void add_given_state(Verb& verb, GivenValues& given);
 
 /// --at, --input.
 void add_given_values(Verb& verb, GivenValues& given);

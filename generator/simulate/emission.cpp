@@ -88,9 +88,9 @@ std::vector<std::string> left_out_of(const Mechanism& m) {
 }
 
 /// The state of the calling example: coordinates that follow from the constraints with 12 digits in the C++
-/// source, so that the same text is written everywhere, and with all in headers and data; none if the scene has no
-/// initial state, without which the equations hold too.
-void add_example(EmitOptions& options, const Emission& e) {
+/// source, so that the same text is written everywhere, and with all in headers and data; none, which is told, if
+/// the scene has no initial state, without which the equations hold too.
+void add_example(EmitOptions& options, Emission& e) {
     const auto begin = [&] {
         const Start start = start_of(e.mechanism);
         const std::vector<double> given = state_in(start, e);
@@ -104,10 +104,15 @@ void add_example(EmitOptions& options, const Emission& e) {
         }
         options.state = state;
     };
+    const auto tell = [&](const std::string& why) {
+        e.warn("left_out", say("warning: the code has no initial state: {}\n", why));
+    };
     try {
         begin();
-    } catch (const ModelError&) {
-    } catch (const IntegrationError&) {
+    } catch (const ModelError& mistake) {
+        tell(mistake.what());
+    } catch (const IntegrationError& mistake) {
+        tell(mistake.what());
     }
 }
 
@@ -146,6 +151,7 @@ std::string command_of(const Scene& scene, const EmissionOptions& options) {
     for (const std::string& frame : options.frames) add("--frame", frame);
     for (const std::string& wrench : options.wrenches) add("--wrench", wrench);
     flag("--batch", options.batch);
+    for (const std::string& value : options.at) add("--at", value);
     add("--by", options.by);
     return command;
 }

@@ -28,7 +28,8 @@ struct EmissionOptions {
     std::vector<std::string> frames = {};
     /// Points or bodies with external wrenches as parameters (wrenches.hpp), "P" or "P@F".
     std::vector<std::string> wrenches = {};
-    bool standalone = false;  ///< whether to add a main program that integrates and prints
+    bool standalone = false;           ///< whether to add a main program that integrates and prints
+    std::vector<std::string> at = {};  ///< the values in place of the scene's, which it has already: for the head
     bool casadi = false;  ///< in C: whether to add functions for CasADi, and derivatives if they are not too long
 };
 

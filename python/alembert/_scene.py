@@ -62,35 +62,37 @@ class Scene:
 
     # Derivation and proof
 
-    def derive(self, by="", *, reactions=False):
-        """The equations of motion, by the formalism named, or by the one that a teacher would choose."""
-        return Derivation((self.text, self.name, by, reactions))
+    def derive(self, by="", *, reactions=False, at=None):
+        """The equations of motion, by the formalism named, or by the one that a teacher would choose. `at` replaces values
+        of the scene, here and in the other calls: {"l": 2, "theta": 0.3}."""
+        return Derivation((self.text, self.name, by, reactions, values_at(at)))
 
-    def draw(self):
+    def draw(self, at=None):
         """The figure of the scene at its initial state."""
-        return self._ask("draw", lambda json, text, files: Figure(files["svg"].decode()))
+        return self._ask("draw", lambda json, text, files: Figure(files["svg"].decode()), at=values_at(at))
 
-    def check(self, claims=None, *, by=""):
+    def check(self, claims=None, *, by="", at=None):
         """Claims held against the derived equations: a text with an equation a line, an equation of SymPy, or a list of
         such; the scene's own if there are none."""
         if claims is not None and not isinstance(claims, str):
             listed_claims = [claims] if hasattr(claims, "free_symbols") else claims
             claims = "\n".join(one if isinstance(one, str) else from_sympy(one) for one in listed_claims)
-        return self._ask("check", Checked, claims=claims, by=by)
+        return self._ask("check", Checked, claims=claims, by=by, at=values_at(at))
 
-    def mark(self, derivation, *, letters=None, by=""):
+    def mark(self, derivation, *, letters=None, by="", at=None):
         """A whole derivation, the text of a file in LaTeX, Markdown or plain text, line by line with a verdict.
         `letters` says what its letters are called in the scene: {r"\\ell": "l"}."""
         pairs = [f"{written}={name}" for written, name in (letters or {}).items()]
-        return self._ask("check", Marked, derivation=derivation, name="derivation", letters=pairs, by=by)
+        return self._ask("check", Marked, derivation=derivation, name="derivation", letters=pairs, by=by,
+                         at=values_at(at))
 
-    def audit(self):
+    def audit(self, at=None):
         """Constraints: kinds, ranks, which are redundant or integrable."""
-        return self._ask("audit", Audited)
+        return self._ask("audit", Audited, at=values_at(at))
 
-    def agree(self):
+    def agree(self, at=None):
         """Derives by every formalism that applies and proves them equal."""
-        return self._ask("agree", Agreed)
+        return self._ask("agree", Agreed, at=values_at(at))
 
     # One state
 
@@ -103,9 +105,9 @@ class Scene:
         """The loads for given accelerations: `at={"q1''": 2}`."""
         return self._ask("inverse", at=values_at(at), by=by)
 
-    def impact(self):
+    def impact(self, at=None):
         """The rates after the scene's impulses."""
-        return self._ask("impact")
+        return self._ask("impact", at=values_at(at))
 
     def kinematics(self, of=(), at=None, *, steps=False, jacobian=False):
         """Positions, velocities and accelerations of frames, bodies and points (all of them, or those named)."""
@@ -115,9 +117,9 @@ class Scene:
         """Masses, centres of mass and moments of inertia of bodies (all of them, or those named)."""
         return self._ask("inertia", of=list(of), about=about, at=values_at(at))
 
-    def identify(self):
+    def identify(self, at=None):
         """Which combinations of masses and moments of inertia motion can show (base parameters)."""
-        return self._ask("identify")
+        return self._ask("identify", at=values_at(at))
 
     def initial_state(self):
         """Coordinates, then rates (or speeds), at the start: as `System.rhs` takes them."""
@@ -227,25 +229,25 @@ class Scene:
         return Robot(self, functions, frames, by)
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
-             frames=(), wrenches=(), batch=False, casadi=False, by="", name=""):
+             frames=(), wrenches=(), batch=False, casadi=False, by="", name="", at=None):
         """The C++ (or C, or JavaScript) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
         if language not in ("cpp", "c", "js"):
             raise ValueError(f"language={language!r}: there are 'cpp', 'c' and 'js'")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
                           jacobian=jacobian, functions=list(functions), frames=list(frames), wrenches=list(wrenches),
-                          batch=batch, casadi=casadi, by=by, name=name)
+                          batch=batch, casadi=casadi, by=by, name=name, at=values_at(at))
         if folder is not None:
             _os.makedirs(folder, exist_ok=True)
             for name, text in found.sources.items():
                 write(place + name, text)
         return found
 
-    def fmu(self, path, *, fmi=2, by=""):
+    def fmu(self, path, *, fmi=2, by="", at=None):
         """Writes a functional mock-up unit of FMI 2.0 or 3.0 to this file; its states, inputs, outputs, parameters."""
         path = _os.fspath(path)
         _alembert.need_form(path, "unit")
-        unit = self._ask("fmu", path=path, fmi=fmi, by=by)
+        unit = self._ask("fmu", path=path, fmi=fmi, by=by, at=values_at(at))
         write(path, unit._files["fmu"])
         return unit
 

@@ -26,7 +26,8 @@ void give(Scene& scene, const std::string& name, const std::string& value) {
     for (Parameter& p : scene.parameters)
         if (p.name.text == name) {
             p.value = constant(value);
-            if (!p.shown.value.empty()) p.shown.value = fmt::format("{}", constant_number(value) / p.shown.size);
+            if (!p.shown.value.empty())
+                p.shown.value = fmt::format("{:.15g}", constant_number(value) / p.shown.size);
         }
     for (Coordinate& c : scene.coordinates) {
         if (c.name.text == name) c.initial = constant(value), c.initial_is_guess = false;
