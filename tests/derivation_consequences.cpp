@@ -331,6 +331,9 @@ TEST_CASE("consequences: a force function, a primed constant, the place of a sta
     CHECK(statuses(pendulum,
                    "The angular momentum $l = \\frac12 m l^2\\dot\\theta^2 - m g l\\cos\\theta$ is conserved.") !=
           "R");
+    CHECK(statuses(pendulum,
+                   "Ersetzt man die Masse durch einen Stab, folgt $$l\\ddot\\theta + \\frac32 "
+                   "g\\sin\\theta = 0$$") != "M");
     CHECK(statuses(pendulum, "If the bob is replaced by a rod, $$l\\ddot\\theta + \\frac32 g\\sin\\theta = 0$$") !=
           "M");
 }

@@ -774,4 +774,18 @@ TEST_CASE("readings: words of a beginning make no value at a start of what the a
               .back() == 'R');
 }
 
+TEST_CASE("readings: a function of a coordinate may have the letter of a parameter") {
+    const std::string crank =
+        "[parameters]\nJ0 = 0.3\nm = 2\nr = 0.4\n[inputs]\nM = 1.2\n[coordinates]\nphi = 0.3\n[energy]\nkinetic = "
+        "\"(J0 + m*r^2*sin(phi)^2)*phi'^2/2\"\n[forces]\nphi = \"M\"\n";
+    const std::string function = "$$m(\\phi) = J_0 + m r^2\\sin^2\\phi$$";
+    CHECK(statuses(crank, function + "$$T = \\frac12 m(\\phi)\\dot\\phi^2$$"
+                                     "$$m(\\phi)\\ddot\\phi + \\frac12 m'(\\phi)\\dot\\phi^2 = M$$") == "DRR");
+    CHECK(statuses(crank, function + "$$\\frac{dm}{d\\phi} = m r^2\\sin 2\\phi$$"
+                                     "$$m(\\phi)\\ddot\\phi + \\frac12\\frac{dm}{d\\phi}\\dot\\phi^2 = M$$") ==
+          "DRR");
+    CHECK(statuses(crank, function + "$$m(\\phi)\\ddot\\phi = M + \\frac12 m'(\\phi)\\dot\\phi^2$$") == "DM");
+    CHECK(statuses(crank, function + "$$m'(\\phi) = m r^2\\cos 2\\phi$$") == "DM");
+}
+
 }  // namespace derivation_readings

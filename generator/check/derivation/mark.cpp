@@ -7,6 +7,7 @@
 #include "check/derivation/choose_letters.hpp"
 #include "check/derivation/glued.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/derivation/own_functions.hpp"
 #include "check/derivation/readings.hpp"
 
 namespace alembert {
@@ -63,7 +64,8 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     std::map<std::string, std::string> letters = options.letters;
     for (const WrittenLetter& letter : system.scene().letters)
         letters.emplace(letter.written.text, letter.name.text);
-    result.written = with_products(std::move(result.written), Letters(system.scene()));
+    const Letters plain(system.scene());
+    result.written = with_own_functions(with_products(std::move(result.written), plain), plain);
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     const Readings readings(system, result.written);
     Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));

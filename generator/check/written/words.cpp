@@ -70,6 +70,13 @@ bool asserts(std::string_view words) {
 bool speaks_of_other_system(std::string_view words) {
     const std::string sentence = last_sentence(words);
     if (has_phrase(sentence, "若*|如果*|假如*") && has_phrase(sentence, "改为*|换成*|换为*")) return true;
+    const bool is_asked =
+        has_phrase(sentence, "if|when|suppose|wenn|falls|man|si|s'il|se|om|jeśli|gdy|если|если бы");
+    if (is_asked && has_phrase(sentence,
+                               "is replaced|are replaced|ersetzt*|est remplac*|sont remplac*|se reemplaza*|se "
+                               "sustituye*|viene sostituit*|è sostituit*|for substituíd*|é substituíd*|"
+                               "zastąp*|ersätts|заменить|заменяется|заменён*"))
+        return true;
     return has_phrase(
         sentence,
         "were replaced|than that of|longer than for|shorter than for|würde man|"
