@@ -120,6 +120,81 @@ TEST_CASE("sweep, bench, between rows: nothing passes over a narrow force either
     }
 }
 
+// v² = 1 + 2 ∫ F dx; the shapes are bounded by bends, or peaks of powers.
+TEST_CASE("places: strips between bends and peaks of powers are passed by no run and no sweep") {
+    const std::vector<Shape> bends = {{"max(0, 1 - abs((x - 1.3)/w))", 1},
+                                      {"max(0, 1 - ((x - 1.3)/w)^2)", 4.0 / 3},
+                                      {"(max(0, x - 1.3) - 2*max(0, x - 1.3 - w) + max(0, x - 1.3 - 2*w))/w", 1},
+                                      {"min(1, max(0, 2 - abs((x - 1.3)/w)))", 3}},
+                             peaks = {{"1/(1 + ((x - 1.3)/w)^2)^4", 5 * std::acos(-1.0) / 16},
+                                      {"1/sqrt(1 + ((x - 1.3)/w)^2)^5", 4.0 / 3},
+                                      {"1/(1 + ((x - 1.3)/w)^4)^3", 21 * std::acos(-1.0) / (32 * std::sqrt(2.0))}};
+    for (const std::vector<Shape>* const shapes : {&bends, &peaks})
+        for (const Shape& shape : *shapes)
+            for (const double w : {0.01, 1e-3, 1e-5}) {
+                if (w < 1e-4 && shape.text[0] == '(') continue;  // the rounding of three terms is what is left
+                CAPTURE(shape.text);
+                CAPTURE(w);
+                const std::string scene = mass(1, 4, fmt::format("[forces]\nx = \"0.3/w*({})\"\n", shape.text));
+                const double exact = std::sqrt(1 + 0.6 * shape.integral);
+                const std::vector<std::string> at = {"--at", fmt::format("w={}", w)};
+                CHECK(std::abs(rate(simulated(scene, at)) - exact) < 1e-6);
+                for (const char* const method : {"auto", "dop853", "verner98"}) {
+                    const auto swept = run(
+                        {"sweep", scene, "--json", "--vary", fmt::format("w={0}:{0}:1", w), "--method", method});
+                    REQUIRE(swept.exit == 0);
+                    const Json row = Json::parse(swept.out)["rows"][0];
+                    CHECK(std::abs(row["final"]["rates"]["x"].get<double>() - exact) < 1e-6);
+                }
+            }
+}
+
+// A layer of drag D between bends takes ∫ D dx = k w from the speed: v = 1 − k w.
+TEST_CASE("places: derivatives of the end know the strip that the motion has met") {
+    const std::string scene = mass(1, 3, "[forces]\nx = \"-30*w*max(0, 1 - abs(x - 1)/0.01)*x'\"\n");
+    const auto result = run({"simulate", scene, "--json", "--sensitivity", "w"});
+    REQUIRE(result.exit == 0);
+    const Json all = Json::parse(result.out);
+    CHECK(std::abs(rate(all) - 0.7) < 1e-8);
+    CHECK(all["sensitivity"]["of"][1] == "x'");
+    CHECK(std::abs(all["sensitivity"]["values"][1][0].get<double>() + 0.3) < 1e-5);
+}
+
+TEST_CASE("places: steps of a fixed length that pass a place are told") {
+    const auto layer = [](const char* force) { return mass(1, 3, fmt::format("[forces]\nx = \"{}\"\n", force)); };
+    const auto narrow = [&] { return layer("-2e4*exp(-((x - 1)/1e-5)^2)*x'"); };
+    const auto mild = [&] { return layer("-0.1*exp(-(x - 1)^2)*x'"); };
+    for (const std::vector<std::string>& method : {std::vector<std::string>{"--method", "rk4", "--step", "0.003"},
+                                                   {"--method", "gauss", "--step", "0.02"}}) {
+        const Json passed = simulated(narrow(), method);
+        CHECK(!trusted(passed));
+        CHECK(passed["error_estimate"].dump().find("where a force changes fast") != std::string::npos);
+        CHECK(trusted(simulated(mild(), method)));
+    }
+    CHECK(run({"emit", narrow(), "--standalone", "-o", alembert::test::temporary_folder("narrow")})
+              .err.find("changes fast in a narrow region") != std::string::npos);
+    CHECK(run({"emit", narrow(), "--fmu", alembert::test::temporary_folder("narrow_unit") + ".fmu"})
+              .err.find("changes fast in a narrow region") != std::string::npos);
+    CHECK(run({"emit", mild(), "--standalone", "-o", alembert::test::temporary_folder("mild")})
+              .err.find("changes fast") == std::string::npos);
+}
+
+// The work of V = k max(0, x − 1)ⁿ: the turning point, and the way back with the speed of before.
+TEST_CASE("places: energies of powers of max and abs, and steep steps, have forces where the power is zero") {
+    for (const std::string potential :
+         {"0.3*max(0, x - 1)^2.5", "0.3*max(0, x - 1)^1.5", "0.3*max(0, x - 1)^(3/2)",
+          "0.6/(1 + exp(-(x - 1)/1e-5))", "0.6/cosh((x - 1)/1e-4)^2", "0.6*(1 + tanh((x - 1)/1e-3))"}) {
+        CAPTURE(potential);
+        const Json result = simulated(mass(1, 20, fmt::format("[energy]\npotential = \"{}\"\n", potential)));
+        CHECK(std::abs(rate(result) + 1) < 1e-7);
+        CHECK(trusted(result));
+    }
+    const std::string hertz = mass(1, 2, "[energy]\npotential = \"w*max(0, x - 1)^2.5\"\n");
+    CHECK(run({"derive", hertz}).out.find("sign") == std::string::npos);
+    CHECK(run({"simulate", hertz, "--sensitivity", "w"}).exit == 0);
+    CHECK(simulated(mass(-1, 1, "[forces]\nx = \"((abs(x) - x)/2)^1.5\"\n"))["exit"].is_null());
+}
+
 TEST_CASE("simulate: a bead turns where a bump of its track uses up its energy") {
     const std::string scene = temporary(
         "bump.toml",

@@ -100,37 +100,142 @@ std::vector<EventInstruction> event_instructions(const Program& program, int roo
     return result;
 }
 
+constexpr unsigned of_state = bit(Variable::Kind::coordinate) | bit(Variable::Kind::rate);
+
 /// Functions that can be flat but for a small region.
 bool may_be_flat(Op op) {
     return op == Op::exp || op == Op::cosh || op == Op::sinh || op == Op::tanh || op == Op::atan || op == Op::pow;
 }
 
+/// The exponents of what depends on the state in a product, whose factors may be products themselves.
+void collect_powers(const Program& program, int id, int exponent, std::map<int, int>& powers) {
+    const Node& node = program[id];
+    if ((node.depends & of_state) == 0) return;
+    if (node.is_scaled()) return collect_powers(program, node.args[0], exponent, powers);
+    if (node.op != Op::product) {
+        powers[id] += exponent;
+        return;
+    }
+    for (std::size_t k = 0; k < node.args.size(); ++k)
+        collect_powers(program, node.args[k], exponent * node.exponents[k], powers);
+}
+
+/// Whether a sum is one of a constant and even powers.
+bool is_bounded_below(const Program& program, int id) {
+    const Node& sum = program[id];
+    if (sum.op != Op::sum) return false;
+    bool has_constant = !cln::zerop(sum.number);
+    for (const int term : sum.args) {
+        std::map<int, int> powers;
+        collect_powers(program, term, 1, powers);
+        has_constant = has_constant || powers.empty();
+        if (std::any_of(powers.begin(), powers.end(), [](const auto& one) { return one.second % 2 != 0; }))
+            return false;
+    }
+    return has_constant;
+}
+
+/// 1/(1 + x²): of a constant and even powers of coordinates, which has no singularity but perhaps a narrow peak.
+/// Of rates, a constant beside them may be that of sliding directions, and zero.
+bool is_peak(const Program& program, const Node& node) {
+    if (!node.is_reciprocal() || (node.depends & bit(Variable::Kind::rate)) != 0) return false;
+    std::map<int, int> below;
+    collect_powers(program, node.args[0], 1, below);
+    if (below.size() != 1) return false;
+    const int base = below.begin()->first;
+    return is_bounded_below(program, program[base].op == Op::sqrt ? program[base].args[0] : base);
+}
+
+bool is_kink(const Node& node) {
+    return (node.op == Op::abs || node.op == Op::min || node.op == Op::max) && (node.depends & of_state) != 0;
+}
+
+/// Whether a function of the state is a constant and constant multiples of the variables.
+bool is_affine(const Program& program, int id) {
+    const Node& node = program[id];
+    if ((node.depends & of_state) == 0 || node.op == Op::variable) return true;
+    if (node.op == Op::sum)
+        return std::all_of(node.args.begin(), node.args.end(), [&](int arg) { return is_affine(program, arg); });
+    if (node.op != Op::product) return false;
+    int moving = 0;
+    for (std::size_t k = 0; k < node.args.size(); ++k)
+        if ((program[node.args[k]].depends & of_state) != 0)
+            moving += node.exponents[k] == 1 && is_affine(program, node.args[k]) ? 1 : 2;
+    return moving == 1;
+}
+
+/// The kinks that may bound a narrow region: those of which a motion may pass two within a short way. One side of
+/// a plane, as in |x'| x' or max(0, x − c), is none.
+std::vector<int> bounding_kinks(const Program& program) {
+    std::vector<int> kinks;
+    std::map<int, int> kinks_of_variable;
+    std::map<int, std::vector<int>> variables;
+    for (const int id : program.needed(program.right_hand_side())) {
+        if (!is_kink(program[id])) continue;
+        kinks.push_back(id);
+        const int roots[] = {id};
+        for (const int part : program.needed(roots))
+            if (program[part].op == Op::variable && (program[part].depends & of_state) != 0) {
+                variables[id].push_back(part);
+                ++kinks_of_variable[part];
+            }
+    }
+    std::erase_if(kinks, [&](int id) {
+        const Node& node = program[id];
+        const bool is_side =
+            std::all_of(node.args.begin(), node.args.end(), [&](int arg) { return is_affine(program, arg); });
+        const bool is_alone = std::all_of(variables[id].begin(), variables[id].end(),
+                                          [&](int variable) { return kinks_of_variable[variable] == 1; });
+        return is_side && is_alone;
+    });
+    return kinks;
+}
+
 /// The functions of the state in the right-hand side that may change fast in a small region alone, and the
 /// reciprocals, roots and logarithms of what contains some, as 1/cosh x and 1/(1 + exp(−x)).
 std::vector<int> quick_functions(const Program& program) {
-    constexpr unsigned state = bit(Variable::Kind::coordinate) | bit(Variable::Kind::rate);
-    std::vector<int> result;
+    std::set<int> result;
     std::set<int> above;  // nodes that contain such a function
-    const std::vector<int> roots = program.right_hand_side();
-    for (const int id : program.needed(roots)) {
+    for (const int id : program.needed(program.right_hand_side())) {
         const Node& node = program[id];
-        if ((node.depends & state) == 0) continue;
+        if ((node.depends & of_state) == 0) continue;
         const bool contains =
             std::any_of(node.args.begin(), node.args.end(), [&](int a) { return above.contains(a); });
-        const bool is_quick = may_be_flat(node.op);
+        const bool is_quick = may_be_flat(node.op) || is_peak(program, node);
         if (is_quick || contains) above.insert(id);
         if (is_quick || (contains && (node.is_reciprocal() || node.op == Op::sqrt || node.op == Op::log)))
-            result.push_back(id);
+            result.insert(id);
     }
+    return {result.begin(), result.end()};
+}
+
+/// The sign on which |a|, min(a, b) or max(a, b) depends. It changes within an interval until that is as short as
+/// can be, so that what lies beside the kink is seen.
+std::vector<EventInstruction> side_of_kink(const Program& program, int kink) {
+    std::vector<EventInstruction> result = event_instructions(program, kink, most_place_instructions);
+    if (result.empty()) return result;
+    EventInstruction& last = result.back();
+    if (last.op == Step::abs) {
+        last.op = Step::sign;
+        return result;
+    }
+    last.op = Step::sum;
+    last.number = 0;
+    last.terms[1].factor = -1;
+    EventInstruction side{.op = Step::sign};
+    side.terms.push_back({.arg = static_cast<int>(result.size()) - 1, .factor = 1, .exponent = 1});
+    result.push_back(std::move(side));
     return result;
 }
 
 }  // namespace
 
-std::shared_ptr<const EventCode> quick_places_code(const Program& program) {
+std::shared_ptr<const EventCode> quick_places_code(const Program& program, Kinks kinks) {
     EventCode code;
     for (const int root : quick_functions(program))
         code.events.push_back(event_instructions(program, root, most_place_instructions));
+    if (kinks == Kinks::watched)
+        for (const int kink : bounding_kinks(program)) code.events.push_back(side_of_kink(program, kink));
     if (code.events.empty()) return nullptr;
     return std::make_shared<const EventCode>(std::move(code));
 }

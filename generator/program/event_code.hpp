@@ -16,6 +16,10 @@ std::shared_ptr<const EventCode> event_code(const Program& program);
 
 /// Likewise the functions of the state in the right-hand side that may change fast in a small region alone
 /// (alembert/ode/quick_places.hpp); null if there are none.
-std::shared_ptr<const EventCode> quick_places_code(const Program& program);
+///
+/// `kinks`: whether abs, min and max are among them where several of them may bound such a region. A run that ends
+/// its steps at each change of a side (program/switches.hpp) knows them.
+enum class Kinks { followed, watched };
+std::shared_ptr<const EventCode> quick_places_code(const Program& program, Kinks kinks);
 
 }  // namespace alembert

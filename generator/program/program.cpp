@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -279,6 +280,58 @@ std::optional<int> bounded_quotient(Program& program, const Rational& content,
     return std::nullopt;
 }
 
+/// The factors of a product whose factors may be products; c·x stays whole.
+void collect_factors(const Program& program, int id, int exponent, std::map<int, int>& factors) {
+    const Node& node = program[id];
+    if (node.op != Op::product) {
+        factors[id] += exponent;
+        return;
+    }
+    for (std::size_t k = 0; k < node.args.size(); ++k)
+        collect_factors(program, node.args[k], exponent * node.exponents[k], factors);
+}
+
+/// Whether one of several factors, some of them products, is exp or sinh, and may thus exceed all numbers before
+/// another one divides it.
+bool grows(const Program& program, std::span<const Program::Factor> factors) {
+    const auto is_growing = [&](int id) { return program[id].op == Op::exp || program[id].op == Op::sinh; };
+    bool has_product = false, has_growing = false;
+    for (const auto& [id, exponent] : factors) {
+        const Node& node = program[id];
+        has_product = has_product || node.op == Op::product;
+        has_growing = has_growing || is_growing(id) ||
+                      (node.op == Op::product && std::any_of(node.args.begin(), node.args.end(), is_growing));
+    }
+    return has_product && has_growing;
+}
+
+std::optional<int> bounded_in_products(Program& program, const Rational& content,
+                                       std::span<const Program::Factor> factors) {
+    if (!grows(program, factors)) return std::nullopt;
+    std::map<int, int> all;
+    for (const auto& [id, exponent] : factors) collect_factors(program, id, exponent, all);
+    const std::vector<Program::Factor> each(all.begin(), all.end());
+    return bounded_quotient(program, content, each);
+}
+
+struct SquareInRoots {
+    int root, moved;  ///< √x, and the exponent of x that is better taken out of its powers, or into them; or 0
+};
+
+/// √x · √x = x, and x/√x = √x.
+SquareInRoots square_in_roots(const Program& program, std::span<const Program::Factor> factors) {
+    for (const auto& [id, exponent] : factors) {
+        if (program[id].op != Op::sqrt || exponent == 0) continue;
+        const int below = program[id].args[0];
+        const bool is_divided = std::any_of(factors.begin(), factors.end(), [&](const Program::Factor& factor) {
+            return factor.first == below && factor.second > 0 && exponent < 0;
+        });
+        if (is_divided) return {id, -std::max(1, -exponent / 2)};
+        if (std::abs(exponent) > 1) return {id, exponent / 2};
+    }
+    return {0, 0};
+}
+
 }  // namespace
 
 int Program::product(const Rational& coefficient, std::span<const Factor> factors) {
@@ -309,15 +362,14 @@ int Program::product(const Rational& coefficient, std::span<const Factor> factor
     }
     gather(by_node, &Factor::first, &Factor::second);
     if (cln::zerop(content)) return number(0);
-    // √x · √x = x
-    for (const auto& [id, exponent] : by_node)
-        if (nodes_[id].op == Op::sqrt && (exponent > 1 || exponent < -1)) {
-            ShortList<Factor> again(by_node, lists);
-            again.emplace_back(nodes_[id].args[0], exponent / 2);
-            again.emplace_back(id, -2 * (exponent / 2));
-            return product(content, again);
-        }
+    if (const auto [root, moved] = square_in_roots(*this, by_node); moved != 0) {
+        ShortList<Factor> again(by_node, lists);
+        again.emplace_back(nodes_[root].args[0], moved);
+        again.emplace_back(root, -2 * moved);
+        return product(content, again);
+    }
     if (const std::optional<int> found = bounded_quotient(*this, content, by_node)) return *found;
+    if (const std::optional<int> found = bounded_in_products(*this, content, by_node)) return *found;
     ShortList<Factor> kept(lists), constants(lists);
     kept.reserve(by_node.size());
     for (const auto& [id, exponent] : by_node)

@@ -144,7 +144,7 @@ private:
         const Node& node = old_[id];
         if (node.is_constant()) return false;
         if (node.op == Op::abs || node.op == Op::min || node.op == Op::max) return true;
-        return (node.is_scaled() || node.op == Op::product) &&
+        return (node.op == Op::sum || node.op == Op::product) &&
                std::any_of(node.args.begin(), node.args.end(), [this](int a) { return may_vanish(a); });
     }
 

@@ -169,7 +169,7 @@ public:
                              .parameters = start_.parameters,
                              .initial = initial,
                              .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
-                             .quick_places = {quick_places_code(program), start_.parameters},
+                             .quick_places = {quick_places_code(program, Kinks::watched), start_.parameters},
                              .effort = effort_of(program),
                              .slowness = wishes_.tuning ? slowness_here() : Slowness{},
                              .conserved = energy.conserved});

@@ -188,7 +188,8 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
         .jacobian_operations = derivatives ? std::optional(derivatives->operations.total()) : std::nullopt,
         .effort = effort});
     mode->event_code = event_code(mode->run());
-    mode->place_code = quick_places_code(mode->program);  // without signs that are held
+    mode->place_code =  // without signs that are held
+        quick_places_code(mode->program, mode->jumps ? Kinks::followed : Kinks::watched);
     mode->operations = mode->run().count(mode->run().right_hand_side());
     return mode;
 }

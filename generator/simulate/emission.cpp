@@ -21,6 +21,7 @@
 #include "program/lower/regressor.hpp"
 #include "program/lower/robot_functions.hpp"
 #include "scene/text.hpp"
+#include "simulate/narrow_places.hpp"
 #include "simulate/wrenches.hpp"
 
 namespace alembert {
@@ -293,6 +294,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     e.source = emit(program, text);
     if (options.standalone) {
         e.main = main_program(e, program, options.language);
+        const Start start = start_of(e.mechanism);
+        tell_narrow_places(e, program, Kinks::watched, start.state(), start.duration);
         for (const std::string& name : tables_with_close_knots(program))
             e.warn(
                 "left_out",

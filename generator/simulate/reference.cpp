@@ -166,7 +166,7 @@ std::vector<double> mesh_of(const Program& program, const std::vector<double>& p
                             const QuadStart& start) {
     const auto t = static_cast<double>(start.t), duration = static_cast<double>(start.duration);
     System system{.quick_times = quick_times(program, parameters, t, t + duration),
-                  .quick_places = {quick_places_code(program), parameters}};
+                  .quick_places = {quick_places_code(program, Kinks::watched), parameters}};
     if (!(duration > 0) || (system.quick_times.empty() && !system.quick_places.code)) return {};
     std::vector<double> initial, mesh;
     for (const Quad& y : start.state) initial.push_back(static_cast<double>(y));

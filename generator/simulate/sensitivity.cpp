@@ -203,7 +203,7 @@ System reversed(const System& forwards, Rhs back, double from) {
 System Sensitivities::watched(Rhs rhs, double end) const {
     return {.rhs = std::move(rhs),
             .quick_times = quick_times(program_, start_.parameters, start_.t, end),
-            .quick_places = {quick_places_code(program_), start_.parameters}};
+            .quick_places = {quick_places_code(program_, Kinks::watched), start_.parameters}};
 }
 
 Trajectory Sensitivities::integrated(const System& system, const std::vector<double>& start,

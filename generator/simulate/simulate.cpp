@@ -358,7 +358,8 @@ private:
              .precision = fixed ? run_.estimate->value.value_or(0) : options_.tolerance,
              .fixed_step = fixed ? options_.step : 0,
              .inputs = quick_times_,
-             .passed = watch.tables ? watch.tables->passed() : std::nullopt});
+             .passed = watch.tables ? watch.tables->passed() : std::nullopt,
+             .passed_place = run_.motion.statistics.passed_place});
         run_.timings.estimate = process_seconds() - begin;
     }
 

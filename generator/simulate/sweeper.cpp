@@ -179,7 +179,7 @@ void Sweeper::compile_smooth() {
     }
     s_.timings.compile = process_seconds() - begin;
     ensemble_->event_code = event_code(program_);
-    ensemble_->place_code = quick_places_code(program_);
+    ensemble_->place_code = quick_places_code(program_, Kinks::watched);
     for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {
         ensemble_->stops.push_back(event.stop);
         ensemble_->directions.push_back(event.direction);

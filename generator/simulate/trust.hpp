@@ -49,6 +49,7 @@ struct Evidence {
     double fixed_step = 0;   ///< in s; 0 if the method chose its steps
     std::vector<InputTimeScale> inputs = {};
     std::optional<TableWatch::Passed> passed = {};
+    std::optional<double> passed_place = {};  ///< Statistics::passed_place
 };
 
 /// The reasons as sentences without capital and full stop, the most important first. If there are none, the run is

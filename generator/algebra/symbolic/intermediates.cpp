@@ -181,13 +181,61 @@ ex Intermediates::partial(const Entry& entry, const symbol& by) {
         }
     } else if (is_a<GiNaC::power>(definition) && !is_whole_power(definition)) {
         const ex &base = definition.op(0), &exponent = definition.op(1);
-        result = exponent * self / base * base.diff(by);
+        // 0 at 0, if it is, and no quotient of zeros
+        const bool is_less = is_a<numeric>(exponent) && ex_to<numeric>(exponent) < 1;
+        result = exponent * (is_less ? self / base : flatten(pow(base, exponent - 1))) * base.diff(by);
         if (const ex outer = exponent.diff(by); !outer.is_zero()) result += flatten(log(base)) * self * outer;
     } else {
         result = definition.diff(by);
     }
     partials_.emplace(key, result);
     return result;
+}
+
+/// `e` divided by a power, with the given exponent, of an entry that each of its terms has; nothing if one has it
+/// not.
+std::optional<ex> Intermediates::without_factor(const ex& e, const symbol& factor, const numeric& power) {
+    if (is_a<GiNaC::add>(e)) {
+        GiNaC::exvector terms;
+        for (const ex& term : e) {
+            const std::optional<ex> divided = without_factor(term, factor, power);
+            if (!divided) return std::nullopt;
+            terms.push_back(*divided);
+        }
+        return sum_of(std::move(terms));
+    }
+    if (is_a<GiNaC::mul>(e)) {
+        for (std::size_t k = 0; k < e.nops(); ++k)
+            if (const std::optional<ex> divided = without_factor(e.op(k), factor, power))
+                return e / e.op(k) * *divided;
+        return std::nullopt;
+    }
+    if (e.is_equal(factor)) return flatten(GiNaC::pow(factor, 1 - power));
+    if (is_a<GiNaC::power>(e) && e.op(0).is_equal(factor) && is_a<numeric>(e.op(1))) {
+        const numeric left = ex_to<numeric>(e.op(1)) - power;
+        if (left < 0 || ex_to<numeric>(e.op(1)) <= 0) return std::nullopt;
+        return flatten(GiNaC::pow(factor, left));
+    }
+    if (const Entry* const entry = is_a<symbol>(e) ? find(ex_to<symbol>(e)) : nullptr)
+        if (!is_a<GiNaC::function>(entry->definition)) return without_factor(ex(entry->definition), factor, power);
+    return std::nullopt;
+}
+
+/// weight · ∂definition/∂by, without a sign where it does not matter: max(0, u)ⁿ is zero where max'(0, u) is none,
+/// and |u|ⁿ sign u is |u|ⁿ⁻¹ u.
+ex Intermediates::weighted_partial(const ex& weight, const Entry& entry, const symbol& by) {
+    if (!is_a<GiNaC::function>(entry.definition)) return weight * partial(entry, by);
+    const ex definition = entry.definition;  // copies, because naming below may move the entries
+    const symbol self = entry.symbol;
+    const bool is_bounded = definition.nops() == 2 && (definition.op(0).is_zero() || definition.op(1).is_zero()) &&
+                            (is_ex_the_function(definition, maximum) || is_ex_the_function(definition, minimum));
+    constexpr int any = 0;
+    if (is_bounded && without_factor(weight, self, any))
+        return weight * (definition.op(0).is_zero() ? definition.op(1) : definition.op(0)).diff(by);
+    if (is_ex_the_function(definition, absolute))
+        if (const std::optional<ex> divided = without_factor(weight, self, 1))
+            return *divided * definition.op(0) * definition.op(0).diff(by);
+    return weight * partial(entry, by);
 }
 
 std::vector<std::size_t> Intermediates::reachable(const std::vector<ex>& roots) const {
@@ -251,7 +299,7 @@ std::vector<ex> Intermediates::pull_back(const std::vector<std::pair<ex, ex>>& t
         const std::vector<symbol> uses = entries_[*k].uses;
         for (const symbol& s : uses)
             if (leads.contains(s.gethash()))
-                adjoint[s.gethash()].push_back(name(weight * partial(entries_[*k], s)));
+                adjoint[s.gethash()].push_back(name(weighted_partial(weight, entries_[*k], s)));
         current_source_ = former;
     }
     std::vector<ex> result;

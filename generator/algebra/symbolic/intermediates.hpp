@@ -96,6 +96,9 @@ private:
     GiNaC::ex name_whole(const GiNaC::ex& e);
     GiNaC::ex flatten(const GiNaC::ex& e);
     GiNaC::ex partial(const Entry& entry, const GiNaC::symbol& by);
+    GiNaC::ex weighted_partial(const GiNaC::ex& weight, const Entry& entry, const GiNaC::symbol& by);
+    std::optional<GiNaC::ex> without_factor(const GiNaC::ex& e, const GiNaC::symbol& factor,
+                                            const GiNaC::numeric& power);
     std::vector<std::size_t> reachable(const std::vector<GiNaC::ex>& roots) const;
     std::vector<GiNaC::symbol> symbols_in(const GiNaC::ex& e) const;
 

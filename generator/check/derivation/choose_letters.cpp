@@ -155,7 +155,8 @@ std::map<Letter, std::string> energies_in_place_of_names(const Scene& scene, con
         for (const MathPtr& side : statement.sides) collect_letters(*side, all);
         const bool is_accelerated_here = std::any_of(statement.sides.begin(), statement.sides.end(),
                                                      [](const MathPtr& side) { return is_accelerated(*side); });
-        for (const auto& [letter, dots] : all) {
+        for (const auto& item : all) {
+            const Letter& letter = item.first;
             const auto quantity = quantity_of(letter);
             const auto name = letters.name_of(letter);
             if (!quantity || !name || !steady.contains(*name) || *quantity == MechanicalQuantity::momentum ||

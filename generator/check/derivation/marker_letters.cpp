@@ -298,13 +298,16 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         notes_.back().right = text;
         return true;
     };
+    // a = x'' may be the acceleration of any of the things that move so
+    const bool is_acceleration = system_.mechanism().z->depends(value, system_.mechanism().qddot);
     for (const Binding& binding : bindings(letter.letter)) {
         const ex here = truth_.value(binding.text),
                  truth = heard_.no_accelerations ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, binding.point, true);
-        const bool is_size = power == 1 && (binding.text.starts_with("sqrt(") ||  // v = l θ' has a sign
-                                            (letter.letter.base == "omega" && letter.letter.index.empty()));
+        const bool is_size = power == 1 && !is_acceleration &&
+                             (binding.text.starts_with("sqrt(") ||  // v = l θ' has a sign
+                              (letter.letter.base == "omega" && letter.letter.index.empty()));
         if (is_size && rows.is_identity(rows.row(GiNaC::pow(truth, 2) - GiNaC::pow(value, 2))) == true)
             return tell(value, binding.point, true);
         if (!binding.size.empty()) {

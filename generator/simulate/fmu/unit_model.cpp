@@ -15,6 +15,7 @@
 #include "program/tangent.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/fmu/event_bases.hpp"
+#include "simulate/narrow_places.hpp"
 #include "simulate/sides.hpp"
 
 namespace alembert {
@@ -211,6 +212,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     model.start = state_of(start, model.mechanism, model.equations);
     model.tied = tied_parameters(model.mechanism, start);
     need_accelerations(model, program, model.start);
+    tell_narrow_places(model, program, Kinks::followed, model.start, start.duration);
     model.quick_times =
         sudden_times(quick_times(program, model.start.parameters, start.t, start.t + start.duration));
     model.times_follow = parameters_of_inputs(program, program.parameters.size());

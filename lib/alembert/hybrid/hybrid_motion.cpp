@@ -383,6 +383,7 @@ private:
         sum.work += s.work;
         sum.seconds += s.seconds;
         sum.method = s.method;
+        if (!sum.passed_place) sum.passed_place = s.passed_place;
         if (!sum.switched)
             sum.switched = s.switched;
         else if (s.switched)

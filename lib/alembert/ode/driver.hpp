@@ -53,7 +53,8 @@ public:
           tolerance_(tolerance_within_rounding(options.tolerance)),
           step_(system.rhs, options.start, initial, tolerance_),
           watch_(events, system.rhs),
-          places_(system.quick_places, system.rhs, terms_left_out * tolerance_),
+          places_(system.quick_places, system.rhs,
+                  has_fixed_steps() ? passed_by_fixed_step : terms_left_out * tolerance_),
           rounding_(tolerance_),
           stiffness_(stable_interval(), dearer(), piece.switching.patience),
           recorder_(result_, events, sample_interval(options)),
@@ -132,7 +133,7 @@ private:
     void steps() {
         if constexpr (AnyStep::has_fixed_step)
             fixed_steps();
-        else if (takes_fixed_steps())
+        else if (has_fixed_steps())
             fixed_steps();
         else
             adaptive_steps();
@@ -150,9 +151,9 @@ private:
         return traits(options_.method).stable_interval;
     }
 
-    bool takes_fixed_steps() const {
+    bool has_fixed_steps() const {
         if constexpr (KnowsSeries<AnyStep>) return options_.step > 0;
-        return false;
+        return AnyStep::has_fixed_step;
     }
 
     void fixed_steps() {
@@ -280,10 +281,18 @@ private:
         return places <= 1 || is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);
     }
 
+    /// A step of fixed length cannot be divided where it passes over something; it is noted once.
+    void look_for_passed_place() {
+        if (!places_.watches() || result_.statistics.passed_place) return;
+        if (const double part = places_.clear_part(stretch()); part < 1)
+            result_.statistics.passed_place = step_.time() + part * step_.length();
+    }
+
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.
     void accept() {
         ++result_.statistics.steps;
         if (disturbance_) disturbance_->accept();
+        if (has_fixed_steps()) look_for_passed_place();
         const bool is_last = piece_.on_step_view && piece_.on_step_view(stretch());
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
         const auto reach = [this](const Crossing& crossing) -> const std::vector<double>& {

@@ -23,6 +23,9 @@ namespace alembert {
 
 inline constexpr int places_in_run = 64;
 inline constexpr double terms_left_out = 30;  ///< what may change the slope of a step, in tolerances
+/// What it may differ by, in sizes of the state, where steps have a fixed length: their own error is told by a
+/// second run.
+inline constexpr double passed_by_fixed_step = 0.01;
 inline constexpr double next_to_none = 0.01;  ///< an estimated error that says nothing, in tolerances
 
 /// Whether nothing on which the rates depend (Rhs::needed_state) changes by more than `allowed` max(1, |y|),

@@ -20,6 +20,7 @@ void append(Trajectory& first, Trajectory next, double grid, double sample) {
     first.statistics.rejected += next.statistics.rejected;
     first.statistics.evaluations += next.statistics.evaluations;
     first.statistics.work += next.statistics.work;
+    if (!first.statistics.passed_place) first.statistics.passed_place = next.statistics.passed_place;
     std::vector<Switch>& later = first.statistics.later_switches;
     if (!first.statistics.switched)
         first.statistics.switched = next.statistics.switched;

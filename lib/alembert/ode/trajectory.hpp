@@ -88,6 +88,8 @@ struct Statistics {
     std::string method;                   ///< the method at the start
     std::optional<Switch> switched = {};  ///< the first change of method
     std::vector<Switch> later_switches = {};
+    std::optional<double> passed_place =
+        {};  ///< where a step of fixed length first passed a place (quick_places.hpp)
 };
 
 struct Trajectory {
