@@ -788,4 +788,100 @@ TEST_CASE("readings: a function of a coordinate may have the letter of a paramet
     CHECK(statuses(crank, function + "$$m'(\\phi) = m r^2\\cos 2\\phi$$") == "DM");
 }
 
+TEST_CASE("readings: a parameter with a bar beside the plain one is the author's own") {
+    const std::string camera =
+        "[parameters]\nB = 2\nm = 1\nd = 0.3\n[coordinates]\neps = 0.2\n[energy]\nkinetic = "
+        "\"(B + m*d^2)*eps'^2/2\"\npotential = \"m*d*sin(eps)\"\n";
+    const std::string shifted = "$$\\bar B = B + m d^2$$";
+    CHECK(statuses(camera, shifted + "$$T = \\tfrac12\\bar B\\dot\\varepsilon^2$$ $$\\bar B\\ddot\\varepsilon + m "
+                                     "d\\cos\\varepsilon = 0$$") == "DRR");
+    CHECK(statuses(camera, shifted + "$$T = \\tfrac12 B\\dot\\varepsilon^2$$") != "DR");
+}
+
+const char* const half_car = R"toml(
+[parameters]
+m = 1200
+J = 1800
+a = 1.2
+b = 1.5
+kf = 30000
+kr = 28000
+[coordinates]
+z = 0.02
+theta = 0.01
+[energy]
+kinetic = "m*z'^2/2 + J*theta'^2/2"
+potential = "kf*(z + a*theta)^2/2 + kr*(z - b*theta)^2/2"
+)toml";
+
+TEST_CASE("readings: z_f of z_f = z + a θ moves, and is no value at one state") {
+    const std::string places =
+        "$$z_f = z + a\\theta, \\qquad z_r = z - b\\theta$$ $$F_f = -k_f z_f, \\qquad F_r = "
+        "-k_r z_r$$ ";
+    CHECK(statuses(half_car, places + "$$m\\ddot z = F_f + F_r$$ $$J\\ddot\\theta = a F_f - b F_r$$") == "DDDDRR");
+    CHECK(statuses(half_car, places + "$$J\\ddot\\theta = a F_f + b F_r$$").back() == 'M');
+    // the slip of a chain is looked for from its beginning
+    const std::string chain =
+        "$$J\\ddot\\theta = -a k_f(z + a\\theta) + b k_r(z - b\\theta) = -(a k_f - b k_r)z - (a^2 "
+        "k_f ";
+    CHECK(statuses(half_car, chain + "+ b^2 k_r)\\theta$$") == "RR");
+    CHECK(statuses(half_car, places + chain + "- b^2 k_r)\\theta$$") == "DDDDRM");
+}
+
+const char* const two_links = R"toml(
+[parameters]
+m1 = 2
+m2 = 1
+l1 = 0.5
+r2 = 0.2
+[inputs]
+tau1 = "sin(t)"
+tau2 = "cos(t)"
+[coordinates]
+q1 = 0.3
+q2 = 0.4
+[[particle]]
+name = "P"
+mass = "m1"
+position = ["l1*cos(q1)", "l1*sin(q1)"]
+[[particle]]
+name = "Q"
+mass = "m2"
+position = ["l1*cos(q1) + r2*cos(q1 + q2)", "l1*sin(q1) + r2*sin(q1 + q2)"]
+[forces]
+q1 = "tau1"
+q2 = "tau2"
+)toml";
+
+TEST_CASE("readings: sines and cosines by index, factors on a part of a sum, rates of relative turns") {
+    CHECK(statuses(two_links,
+                   "$$D_{12} = m_2(r_2^2 + l_1 r_2 c_2)$$ $$\\dot D_{12} = -m_2 l_1 r_2 s_2\\dot q_2$$ "
+                   "$$\\dot y_Q = l_1 c_1\\dot q_1 + r_2 c_{12}(\\dot q_1 + \\dot q_2)$$") == "DRR");
+    CHECK(statuses(two_links,
+                   "$$D_{12} = m_2(r_2^2 + l_1 r_2 c_2)$$ $$\\dot D_{12} = -m_2 l_1 r_2 s_2\\dot q_1$$") == "DM");
+    const std::string wheel =
+        "[parameters]\nI0 = 2\nJw = 1\nmu = 3\n[coordinates]\ntheta = 0.1\nphi = 0\n[energy]\nkinetic = "
+        "\"I0*theta'^2/2 + Jw*(theta' + phi')^2/2\"\npotential = \"mu*cos(theta)\"\n";
+    CHECK(statuses(wheel,
+                   "The wheel turns with $\\dot\\varphi$, so $$T = \\tfrac12 I_0\\dot\\theta^2 + \\tfrac12 "
+                   "J_w\\dot\\varphi^2$$") == "M");
+    const std::string geared =
+        "[parameters]\nJm = 2\nbm = 1\nn = 50\nJ_L = 3\ntm = 1\n[coordinates]\nq = 0\n[energy]\nkinetic = \"(J_L + "
+        "n^2*Jm)*q'^2/2\"\n[dissipation]\nrayleigh = \"n^2*bm*q'^2/2\"\n[forces]\nq = \"n*tm\"\n";
+    const std::string torque = "The gear gives $$J_L\\ddot q = n t_m - n";
+    CHECK(statuses(geared, torque + "^2 b_m\\dot q - n^2 J_m\\ddot q$$").back() == 'R');
+    CHECK(statuses(geared, torque + " b_m\\dot q - n J_m\\ddot q$$").back() == 'M');
+}
+
+TEST_CASE("readings: limits before a display, numbers of equations behind dots, uniform motion") {
+    CHECK(statuses(half_car,
+                   "For $b\\to\\infty$, $k_r\\to 0$ and the car becomes the rigid "
+                   "link\n\n$$(J + m)\\ddot\\theta + k_f z = 0$$")
+              .back() != 'M');
+    for (const std::string dots : {"…(8)", "……(8)", ". . . (8)", "...(8)", "⋯ (8a)"})
+        CHECK(statuses(half_car, "由(6)：   m z'' = -kf*(z + a*theta) - kr*(z - b*theta)      " + dots + "\n",
+                       "page.txt") == "R");
+    CHECK(statuses(half_car, "匀速运动 θ'' = 0： J θ' = 3\n", "page.txt").find('M') == std::string::npos);
+}
+
 }  // namespace derivation_readings

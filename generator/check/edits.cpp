@@ -16,7 +16,7 @@ namespace {
 // The sizes of changes. Only their order matters.
 constexpr double of_sign = 1, of_turn = 1.3, of_square = 1.5, of_number = 1.55, of_dot = 1.6, of_angle = 1.8,
                  of_name = 2, of_power = 2.05, of_parameter = 2.2, of_factor = 2.4, of_inner_term = 2.7,
-                 of_term = 3, of_digit = 0.03;
+                 of_other_rate = 2.75, of_term = 3, of_digit = 0.03;
 
 /// Terms and factors in all changes: some 100 MB.
 constexpr std::size_t most_room = 4000000;
@@ -207,6 +207,38 @@ std::optional<Edit> Edits::with_two_signs(const Summand& a, const Summand& b, do
     return edit;
 }
 
+std::vector<Edit> Edits::with_factor_on_rest(double size) const {
+    constexpr std::size_t fewest_terms = 3;  // of two terms the factor is missing on one
+    std::vector<Edit> result;
+    for (const bool left : {true, false}) {
+        const Tree& sum = *side(left);
+        if (sum.kind != Kind::sum || sum.args.size() < fewest_terms) continue;
+        const ProductTree first(without_sign(sum.args[0]).first, steady_);
+        for (const std::string& name : words_.parameters) {
+            const TreePtr factor = name_tree(name);
+            if (first.exponent_of(factor) < 1) continue;
+            std::vector<TreePtr> terms{sum.args[0]};
+            std::string rest;
+            for (std::size_t k = 1; k < sum.args.size(); ++k) {
+                const auto [body, is_negative] = without_sign(sum.args[k]);
+                const TreePtr product = made(Kind::product, {factor, body});
+                terms.push_back(is_negative ? made(Kind::negate, {product}) : product);
+                rest += (rest.empty() ? "" : ", ") + in_source(*body, left);
+            }
+            const TreePtr changed = made(Kind::sum, std::move(terms));
+            Edit edit{.size = size,
+                      .kind = "factor",
+                      .lhs = left ? changed : side(true),
+                      .rhs = left ? side(false) : changed,
+                      .term = std::move(rest),
+                      .should_be = {},
+                      .changed = side(left)};
+            result.push_back(named(std::move(edit), "", name));
+        }
+    }
+    return result;
+}
+
 bool Edits::is_whole(const Summand& s) const {
     return s.whole == side(s.left) && is_zero_number(*side(!s.left));
 }
@@ -372,6 +404,16 @@ void Edits::leaves(const TreePtr& tree, std::size_t number, bool is_power_base) 
 void Edits::name(const TreePtr& tree, std::size_t number, bool is_power_base) {
     const Summand s = summands[number];
     const std::string& own = tree->text;
+    const bool is_rate = tree->primes == 1 && is_power_base && !s.in_derivative && words_.has_rate(own);
+    for (const std::string& other : words_.coordinates)  // of a turn relative to another one
+        if (is_rate && other != own) {
+            const TreePtr rate = name_tree(other, 1);
+            for (const TreePtr& added : {rate, made(Kind::negate, {rate})}) {
+                const TreePtr sum = made(Kind::sum, {tree, added});
+                list.push_back(named(with_part_of(s, tree.get(), sum, "factor", of_other_rate),
+                                     plain_text_of(*tree), plain_text_of(*sum)));
+            }
+        }
     const auto swap = [&](const TreePtr& by, const std::string& kind, double size) {
         list.push_back(named(with_part_of(s, tree.get(), by, s.in_angle ? "wrong_argument" : kind, size),
                              plain_text_of(*tree), plain_text_of(*by)));

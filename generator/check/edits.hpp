@@ -86,6 +86,9 @@ public:
     std::vector<Edit> in_place_of(const TreePtr& alien, const TreePtr& own, double size) const;
     /// The claim with two signs turned; nothing if one of the summands is a part of the other.
     std::optional<Edit> with_two_signs(const Summand& a, const Summand& b, double size) const;
+    /// The claims in which a factor of the first term of a sum stands on the others too: n*a + b + c for
+    /// n*(a + b + c).
+    std::vector<Edit> with_factor_on_rest(double size) const;
 
     /// How much larger changes of a summand count, by its place.
     double burden(const Summand& summand) const;

@@ -21,7 +21,7 @@ namespace {
 /// Sizes of what follows the changes of a part.
 constexpr int most_own_terms = 3;
 constexpr double of_own_term = 1.72, of_more_terms = 1.3, of_alien_force = 2.95, of_missing_term = 3.05,
-                 of_two_signs = 3.3;
+                 of_two_signs = 3.3, of_factor_on_rest = 3.2;
 /// A correction that gives the scene's own equation, energy or momentum term by term counts as smaller by this.
 constexpr double largest_bonus = 0.5, bonus_but_for_a_factor = 0.36;
 
@@ -50,6 +50,7 @@ public:
         std::vector<Edit> rest;
         add_missing_terms(rest);
         add_pairs_of_signs(rest);
+        for (Edit& edit : edits_.with_factor_on_rest(of_factor_on_rest)) rest.push_back(std::move(edit));
         const std::optional<Found> other = smallest(rest);
         if (found && (!other || found->size <= other->size)) return found->repair;
         return other ? std::optional(other->repair) : std::nullopt;

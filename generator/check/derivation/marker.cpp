@@ -42,6 +42,7 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
       truth_(system.scene(), system.mechanism(), system.sheets()),
       own_(system, letters_) {
     count_letters();
+    find_moving_letters();
     std::vector<ex> values = system.forces(true);
     values.push_back(system.mechanism().lagrangian());
     const std::vector<ex> changes = system.mechanism().explicit_time_derivative(values);
@@ -54,6 +55,63 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
     }
     for (const DerivedSystem::IndependentSpeed& speed : system_.independent_speeds())
         if (speed.is_of_scene || speed.is_rate) know_speed(speed.name + (speed.is_rate ? "'" : ""), speed.slopes);
+    bind_sines_by_index();
+}
+
+/// s_1, c_2, s_{12} = sin(θ_1 + θ_2), as books on robots write them, where both sines and cosines stand so and no
+/// line defines them.
+void Marker::bind_sines_by_index() {
+    std::set<Letter> stated;
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written_.statements)
+        for (const MathPtr& side : statement.sides) {
+            collect_letters(*side, all);
+            if (side->kind == Math::Kind::letter) stated.insert(side->letter);
+        }
+    std::map<Letter, ex> values;
+    std::set<std::string> bases;
+    for (const auto& item : all) {
+        const Letter& letter = item.first;
+        const std::string index = [&] {
+            std::string digits = letter.index;
+            std::erase_if(digits, [](char c) { return c == ',' || c == ' '; });
+            return digits;
+        }();
+        const bool is_sine = letter.base == "s" || letter.base == "S",
+                   is_cosine = letter.base == "c" || letter.base == "C";
+        if ((!is_sine && !is_cosine) || !is_count(index) || !letter.accent.empty() || !letter.raised.empty() ||
+            letters_.name_of(letter))
+            continue;
+        ex angle = 0;
+        for (const char digit : index) {
+            const std::string coordinate = letters_.coordinate_of(std::string(1, digit));
+            if (coordinate.empty() || !coordinate.ends_with(digit)) return;
+            angle += truth_.value(coordinate);
+        }
+        bases.insert(is_sine ? "s" : "c");
+        if (!stated.contains(letter))
+            values.emplace(letter, is_sine ? ex(GiNaC::sin(angle)) : ex(GiNaC::cos(angle)));
+    }
+    if (bases.size() < 2) return;
+    for (const auto& [letter, value] : values) bind(letter, value);
+}
+
+void Marker::find_moving_letters() {
+    const auto moves = [this](const Math& value) {
+        std::map<Letter, int> all;
+        collect_letters(value, all);
+        return value.kind != Math::Kind::letter && std::any_of(all.begin(), all.end(), [this](const auto& item) {
+                   const auto name = letters_.name_of(item.first);
+                   return name && item.second == 0 && letters_.is_of_scene(*name) && letters_.moves(*name);
+               });
+    };
+    for (const WrittenStatement& statement : written_.statements) {
+        if (statement.sides.size() < 2) continue;
+        const Math& side = *statement.sides[0];
+        if (side.kind == Math::Kind::letter && side.dots == 0 && !side.letter.index.empty() &&
+            !letters_.name_of(side.letter) && moves(*statement.sides[1]))
+            moving_letters_.insert(side.letter);
+    }
 }
 
 void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
@@ -229,7 +287,7 @@ bool Marker::is_of_limit(MarkedLine& line, const Math& lhs) const {
     const auto name = lone.letter != nullptr ? letters_.name_of(lone.letter->letter) : std::nullopt;
     if (!name || !known_.contains(*name) || letters_.is_of_scene(*name) || quantity_of(lone.letter->letter))
         return false;
-    if (!is_limit(written_, *statement_)) return false;
+    if (!is_limit(written_, *statement_, 60)) return false;
     line.status = LineStatus::not_about_scene;
     line.reason = say("the words state a condition for it; lines are judged for all motions");
     return true;

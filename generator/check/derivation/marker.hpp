@@ -214,6 +214,8 @@ private:
                       std::optional<std::size_t> wrong);
     std::vector<Binding> bindings(const Letter& letter) const;
     bool counts_other_things(const Letter& letter) const;
+    void bind_sines_by_index();
+    void find_moving_letters();
     void count_letters();
     void hear_bodies(const std::string& words);
     void hear_special_values(const std::string& words);
@@ -296,6 +298,7 @@ private:
     bool speaks_of_quantity(const LineNotes& notes) const;
     std::map<std::string, GiNaC::ex> known_in_motion() const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
+    std::optional<LineClaim> from_start_of_chain(const MarkedLine& line) const;
     void find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     void seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     bool is_plausible(const std::optional<Slip>& slip, const LineClaim& claim);
@@ -345,6 +348,7 @@ private:
     std::set<Letter> motion_letters_;      ///< in formulas of one motion: A and B of A cos ω t
     std::vector<std::unique_ptr<RestStates>> states_;  ///< of rest and of steady motion, in all cases and special
     std::set<Letter> state_letters_;                   ///< θ_0 of a coordinate θ
+    std::set<Letter> moving_letters_;                  ///< z_f of z_f = z + a θ, which is no value at one state
     GiNaC::exmap places_;                              ///< their symbols, with the coordinates
     std::vector<GiNaC::ex> rest_relations_;            ///< what lines have shown to vanish at these states
     bool is_of_case_ = false;        ///< whether what was found last at rest is of special values

@@ -69,6 +69,7 @@ void Marker::hear_special_values(const std::string& words) {
 /// θ₀ where θ is a coordinate and the scene has no θ₀.
 bool Marker::is_value_of_state(const Letter& letter) const {
     if (state_letters_.contains(letter)) return true;
+    if (moving_letters_.contains(letter)) return false;
     if (!letter.raised.empty() && letter.raised != "*") {  // y_1^0
         Letter plain = letter;
         plain.raised.clear();

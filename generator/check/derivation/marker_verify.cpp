@@ -85,6 +85,11 @@ bool Marker::is_plausible(const std::optional<Slip>& slip, const LineClaim& clai
 void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known) {
     const LineClaim& claim = notes.claim;
     if (is_plausible(line.checked.likely, claim)) return;
+    if (const std::optional<LineClaim> from_start = from_start_of_chain(line)) {
+        CheckedClaim whole = std::move(verdicts_on({*from_start}, known, system_)[0]);
+        if (whole.verdict == Verdict::refuted && is_plausible(whole.likely, *from_start))
+            return adopt(line, notes, std::move(whole));
+    }
     if (notes.near) {
         CheckedClaim near = line.checked;
         near.likely = slip_near(claim, *notes.near, system_, known);
@@ -105,6 +110,19 @@ void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::s
     }
     if (order == 1 && claim.constants.empty() && (has_free_constant(notes) || !has_quantity(notes)))
         seek_in_integral(line, notes, known);
+}
+
+/// Of b = c in a = b = c, where a = b is right and shorter: a = c.
+std::optional<LineClaim> Marker::from_start_of_chain(const MarkedLine& line) const {
+    auto k = static_cast<std::size_t>(&line - lines.data());
+    LineClaim claim = notes_[k].claim;
+    const std::string written = claim.lhs;
+    while (k > 0 && lines[k - 1].statement == line.statement && lines[k - 1].status == LineStatus::right &&
+           notes_[k - 1].claim.rhs == claim.lhs) {
+        --k;
+        claim.lhs = notes_[k].claim.lhs;
+    }
+    return claim.lhs.size() < written.size() ? std::optional(claim) : std::nullopt;
 }
 
 /// The slip of θ'² = g (1 − cos θ)/R, which motions that start at rest keep, or of L − p φ': the change after

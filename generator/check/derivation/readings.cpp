@@ -116,6 +116,22 @@ bool calls_coordinate_q(const Letters& letters, const Written& written) {
     return is_used;
 }
 
+/// A parameter with a bar or a tilde, where the plain one stands too: B̄ = B + m d².
+std::vector<Letter> barred_letters(const Letters& letters, const Written& written) {
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written.statements)
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    std::vector<Letter> result;
+    for (const auto& item : all) {
+        if (item.first.accent != "bar" && item.first.accent != "tilde") continue;
+        Letter plain = item.first;
+        plain.accent.clear();
+        const auto name = letters.name_of(plain);
+        if (all.contains(plain) && name && !letters.moves(*name)) result.push_back(item.first);
+    }
+    return result;
+}
+
 }  // namespace
 
 /// "The force function U is", or V = −U.
@@ -165,6 +181,7 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                     speaks_of_angular_momentum(statement.words))
                     letters.leave_to_author(*letter);
             }
+    for (const Letter& letter : barred_letters(letters, written)) letters.leave_to_author(letter);
     if (is_integral(written, {.base = "K"})) letters.leave_to_author({.base = "K"});
     return letters;
 }

@@ -90,6 +90,30 @@ bool is_program(std::string_view language) {
     return std::find(std::begin(names), std::end(names), language) != std::end(names);
 }
 
+/// Where a line ends before the dots that lead to the number of an equation, as in "…(8)" and ". . . (8)".
+std::size_t before_leaders(std::string_view line) {
+    std::size_t end = line.size(), dots = 0;
+    for (;;) {
+        const std::string_view left = line.substr(0, end);
+        if (left.ends_with(' ') || left.ends_with('\t'))
+            --end;
+        else if (left.ends_with('.'))
+            --end, ++dots;
+        else if (left.ends_with("…") || left.ends_with("⋯"))
+            end -= std::string_view("…").size(), dots += 3;
+        else
+            break;
+    }
+    return dots > 1 ? end : line.size();
+}
+
+/// 8, 2.13, 5a
+bool is_short_number(std::string_view text) {
+    constexpr std::size_t most = 5;
+    return !text.empty() && text.size() <= most && text[0] >= '0' && text[0] <= '9' &&
+           text.find_first_not_of("0123456789.abc'") == std::string_view::npos;
+}
+
 /// Where the formula of a line ends, before the number of an equation, (1.24), or a remark in parentheses or after
 /// #.
 std::size_t end_of_formula(std::string_view line) {
@@ -108,6 +132,8 @@ std::size_t end_of_formula(std::string_view line) {
         if (depth == 0) break;
     }
     const std::string_view inside = line.substr(open + 1, end - open - 2);
+    if (const std::size_t before = before_leaders(line.substr(0, open)); before < open && is_short_number(inside))
+        return before;
     if (open < 2 || line[open - 1] != ' ' || inside.empty()) return end;
     const bool is_number = inside.find('.') != std::string_view::npos &&
                            inside.find_first_not_of("0123456789.") == std::string_view::npos;

@@ -78,10 +78,10 @@ std::string in_whole_brackets(const std::string& text, std::size_t begin, std::s
     return text.substr(begin, end - begin);
 }
 
-bool is_limit(const Written& written, const WrittenStatement& statement) {
-    constexpr std::size_t most = 60;
+bool is_limit(const Written& written, const WrittenStatement& statement, std::size_t most) {
     const std::size_t from = statement.offset > most ? statement.offset - most : 0;
     std::string before = written.text.substr(from, statement.offset - from);
+    before.resize(before.find_last_not_of(" \t\r\n$[\\") + 1);  // what opens a display
     for (const char* const stop : {". ", ".\n", "。", "\n\n"})
         if (const std::size_t end = before.rfind(stop); end != std::string::npos) before.erase(0, end + 1);
     static constexpr const char* limits[] = {

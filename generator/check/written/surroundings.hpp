@@ -19,7 +19,7 @@ bool is_conditioned_behind(const Written& written, const WrittenStatement& state
 /// begin behind the bracket.
 std::string in_whole_brackets(const std::string& text, std::size_t begin, std::size_t end);
 
-/// Whether its sentence has taken a limit before it: "for $M\to\infty$ we get …".
-bool is_limit(const Written& written, const WrittenStatement& statement);
+/// Whether its sentence has taken a limit within so many bytes before it: "for $M\to\infty$ we get …".
+bool is_limit(const Written& written, const WrittenStatement& statement, std::size_t most);
 
 }  // namespace alembert

@@ -25,7 +25,7 @@ constexpr std::string_view special_motions =
     "mouvement stationnaire|régime permanent|mouvement circulaire|pendule conique|orbite circulaire|precesión "
     "regular|precesión estacionaria|régimen permanente|movimiento circular|órbita circular|péndulo cónico|"
     "rotación uniforme|equilibrio relativo|équilibre relatif|relativen gleichgewicht*|relatives "
-    "gleichgewicht|relative gleichgewichtslage*|匀速圆周*|稳态进动*|匀速转动*|"
+    "gleichgewicht|relative gleichgewichtslage*|匀速*|稳态进动*|"
     "stationären zustand*|kreisbewegung*|kreisförmige bahn*|kreisförmigen bahn*|kegelbewegung*|"
     "schlafender kreisel|schlafenden kreisel*|précession uniforme|"
     "orbites circulaires|toupie dormante|estado estacionario|precesión uniforme|"
