@@ -94,11 +94,7 @@ std::vector<std::string> distrust_reasons(const Evidence& e) {
                 "take shorter ones, or a method "
                 "that chooses them",
                 q->step, (q->from + q->to) / 2, e.fixed_step));
-    if (e.passed)
-        reasons.push_back(
-            say("a step that ends at t = {:.6g} passes a feature of the table '{}' near {:.6g} at once; a "
-                "max_step in [simulation] makes steps shorter",
-                e.passed->time, e.passed->table, e.passed->near));
+    if (e.passed) reasons.push_back(TableWatch::text_of(*e.passed));
     return reasons;
 }
 
