@@ -3,6 +3,8 @@
 // is independent of it and has a closed form.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -72,6 +74,45 @@ TEST_CASE("flat: what sticks beside a linkage that passes a singular pose stays 
         CAPTURE(method);
         check_block(motion_beside_linkage("0", friction + "[forces]\nxc = 1\n", method), 0, 0);
     }
+}
+
+// The cranks of a parallelogram turn evenly, through two poses in which it lies flat.
+TEST_CASE("flat: the error that is told of a parallelogram is no less than the true one") {
+    const auto scene = [](double crank, double rod, double angle, double rate) {
+        return temporary("parallelogram.toml", fmt::format(R"toml([coordinates]
+q0 = {{ initial = {2}, rate = {3} }}
+q1 = {{ guess = 0.0, rate_guess = 0.0 }}
+q2 = {{ guess = {2}, rate_guess = 3.0 }}
+[[particle]]
+name = "P1"
+mass = 1
+position = ["{0}*cos(q0)", "{0}*sin(q0)"]
+[[particle]]
+name = "P2"
+mass = 2
+from = "P1"
+position = ["{1}*cos(q1)", "{1}*sin(q1)"]
+[[constraint]]
+name = "across"
+holonomic = "{0}*cos(q0) + {1}*cos(q1) = {1} + {0}*cos(q2)"
+[[constraint]]
+name = "up"
+holonomic = "{0}*sin(q0) + {1}*sin(q1) = {0}*sin(q2)"
+)toml",
+                                                           crank, rod, angle, rate));
+    };
+    const double angle = 0.9, rate = 2.07;
+    for (const char* duration : {"1.5", "2", "2.806953951147077"})
+        for (const char* method : {"auto", "dop853", "radau"}) {
+            CAPTURE(duration);
+            CAPTURE(method);
+            const Json motion = json_of({"simulate", scene(0.58, 1.72, angle, rate), "--method", method,
+                                         "--tolerance", "1e-12", "--duration", duration});
+            const double end = angle + rate * std::stod(duration);
+            const double error = std::max(std::abs(coordinate(motion, "q0") - end) / end,
+                                          std::abs(motion["final"]["rates"]["q0"].get<double>() - rate) / rate);
+            CHECK(error <= motion["error_estimate"]["value"].get<double>());
+        }
 }
 
 }  // namespace commands_flat

@@ -866,7 +866,8 @@ TEST_CASE("readings: sines and cosines by index, factors on a part of a sum, rat
                    "The wheel turns with $\\dot\\varphi$, so $$T = \\tfrac12 I_0\\dot\\theta^2 + \\tfrac12 "
                    "J_w\\dot\\varphi^2$$") == "M");
     const std::string geared =
-        "[parameters]\nJm = 2\nbm = 1\nn = 50\nJ_L = 3\ntm = 1\n[coordinates]\nq = 0\n[energy]\nkinetic = \"(J_L + "
+        "[parameters]\nJm = 2\nbm = 1\nn = 50\nJ_L = 3\ntm = 1\n[coordinates]\nq = 0\n[energy]\nkinetic = \"(J_L "
+        "+ "
         "n^2*Jm)*q'^2/2\"\n[dissipation]\nrayleigh = \"n^2*bm*q'^2/2\"\n[forces]\nq = \"n*tm\"\n";
     const std::string torque = "The gear gives $$J_L\\ddot q = n t_m - n";
     CHECK(statuses(geared, torque + "^2 b_m\\dot q - n^2 J_m\\ddot q$$").back() == 'R');

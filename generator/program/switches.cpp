@@ -351,13 +351,20 @@ std::optional<Switched> switched(const Program& program, SecondRates second) {
     return result;
 }
 
-bool jumps_along_motion(const Program& program, bool by_parameters) {
+bool jumps_along_motion(const Program& program, const std::vector<int>& parameters) {
     std::vector<QuotientSign> signs;
     const Program p = with_quotient_signs(program, signs);
     const std::vector<int> needed = p.needed(p.right_hand_side());
-    unsigned fixed = 1U << static_cast<unsigned>(Variable::Kind::time);
-    if (!by_parameters) fixed |= 1U << static_cast<unsigned>(Variable::Kind::parameter);
-    const auto by_time_alone = [&](int argument) { return (p[argument].depends & ~fixed) == 0; };
+    const unsigned fixed = bit(Variable::Kind::time) | bit(Variable::Kind::parameter);
+    const auto is_moved = [&](int id) {
+        return p[id].op == Op::variable && p[id].variable.kind == Variable::Kind::parameter &&
+               std::find(parameters.begin(), parameters.end(), p[id].variable.index) != parameters.end();
+    };
+    const auto by_time_alone = [&](int argument) {
+        if ((p[argument].depends & ~fixed) != 0) return false;
+        const std::vector<int> inside = p.needed(std::vector<int>{argument});
+        return std::none_of(inside.begin(), inside.end(), is_moved);
+    };
     return std::any_of(needed.begin(), needed.end(), [&](int id) {
         if (p[id].op == Op::sign) return !by_time_alone(p[id].args[0]);
         const TabulatedFunction* const table = p[id].op == Op::unspecified ? p.table_of(p[id]) : nullptr;

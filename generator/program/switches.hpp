@@ -55,8 +55,8 @@ enum class SecondRates { left_out, wanted };
 std::optional<Switched> switched(const Program& program, SecondRates second = SecondRates::left_out);
 
 /// Whether rates jump where the motion comes to a place, by a sign, a quotient such as x/|x|, or a derivative of a
-/// table at its knots: there
-/// derivatives by where the motion began jump too. With `by_parameters` also where parameters move the time of it.
-bool jumps_along_motion(const Program& program, bool by_parameters = false);
+/// table at its knots: there derivatives by where the motion began jump too. A jump at a time that is fixed does
+/// not count, and it is fixed if none of these parameters moves it.
+bool jumps_along_motion(const Program& program, const std::vector<int>& parameters = {});
 
 }  // namespace alembert

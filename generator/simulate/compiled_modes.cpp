@@ -175,11 +175,13 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
         running = smooth;
     std::vector<std::string> sides = jumps ? names_of_sides(program, *jumps) : std::vector<std::string>();
     const double effort = effort_of(program);
+    std::shared_ptr<const Corners> corners = Corners::of(derived.mechanism);
     auto mode = std::make_unique<CompiledMode>(CompiledMode{
         .derived = std::move(derived),
         .program = std::move(program),
         .jumps = std::move(jumps),
         .sides = std::move(sides),
+        .corners = std::move(corners),
         .running = std::move(running),
         .code = std::move(code),
         .kind = kind,

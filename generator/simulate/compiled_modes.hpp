@@ -23,6 +23,7 @@
 #include "program/event_code.hpp"
 #include "program/quotient_signs.hpp"
 #include "program/switches.hpp"
+#include "simulate/corners.hpp"
 #include "simulate/faster_code.hpp"
 #include "simulate/method.hpp"
 #include "simulate/solver_code.hpp"
@@ -32,9 +33,10 @@ namespace alembert {
 struct CompiledMode {
     Derived derived;  ///< with a mechanism in which the closed contacts are constraints
     Program program;
-    std::optional<Switched> jumps;        ///< where signs are held constant
-    std::vector<std::string> sides;       ///< the names of these signs
-    std::optional<Program> running = {};  ///< set if it is not `program` whose functions run
+    std::optional<Switched> jumps;                ///< where signs are held constant
+    std::vector<std::string> sides;               ///< the names of these signs
+    std::shared_ptr<const Corners> corners = {};  ///< null if there are none
+    std::optional<Program> running = {};          ///< set if it is not `program` whose functions run
     const Program& run() const { return running ? *running : program; }
     SolverCode code;
     CodeKind kind = CodeKind::memory;

@@ -21,6 +21,7 @@
 #include "program/lower/regressor.hpp"
 #include "program/lower/robot_functions.hpp"
 #include "scene/text.hpp"
+#include "simulate/corners.hpp"
 #include "simulate/narrow_places.hpp"
 #include "simulate/wrenches.hpp"
 
@@ -269,6 +270,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
                say("warning: contacts, dry friction that sticks and what events set or give, which change the "
                    "motion, are left out of emitted functions, which hold between them; 'alembert "
                    "simulate' and the library follow them\n"));
+    warn_of_corners(e);
     e.choice = lowered(e, options.fold);
     if (options.jacobian || options.casadi) {
         e.derivatives = derivatives_of(e, e.choice.program, {.parameters = true, .power = true}, options.fold);

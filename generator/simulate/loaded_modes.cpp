@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/base/error.hpp"
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/taylor.hpp"
@@ -60,6 +61,7 @@ void LoadedModes::begin() {
 }
 
 void LoadedModes::begin_in(LoadedMode& mode) const {
+    mode.last.reset();
     std::vector<double> first = first_.q;
     first.insert(first.end(), first_.qdot.begin(), first_.qdot.end());
     const alembert_solver_table& table = mode.module.table();
@@ -74,6 +76,7 @@ LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
     auto mode = loaded_.find(closed);
     if (mode == loaded_.end()) mode = loaded_.emplace(closed, bound(closed)).first;
     mode->second->sides_are_known = false;
+    mode->second->last.reset();
     return *mode->second;
 }
 
@@ -125,6 +128,26 @@ void LoadedModes::count_step(LoadedMode& mode, double t, std::span<const double>
     }
 }
 
+/// With the rates of the coordinates and the scene's states, whatever the speeds are.
+State<double> LoadedModes::state_of(const LoadedMode& mode, double t, const double* y, const double* rate) const {
+    const auto n = static_cast<std::size_t>(mode.module.table().coordinates),
+               s = static_cast<std::size_t>(mode.module.table().speeds), z = mode.derived.mechanism.states.size();
+    State<double> at{
+        .parameters = start_.parameters, .t = t, .q = {y, y + n}, .qdot = {rate, rate + n}, .qddot = {}};
+    at.qdot.insert(at.qdot.end(), y + n + s - z, y + n + s);
+    return at;
+}
+
+/// Where no sign is held constant, steps do not end at corners.
+void LoadedModes::look_for_corner(LoadedMode& mode, double t, const double* y, const double* rate) const {
+    const std::lock_guard lock(compiled_.symbols);
+    State<double> now = state_of(mode, t, y, rate);
+    if (mode.last)
+        if (const auto why = mode.compiled.corners->obstacle_between(*mode.last, now))
+            throw IntegrationError(*why, t, now.q);
+    mode.last = std::move(now);
+}
+
 void LoadedMode::hold(const std::vector<double>& sigma) {
     const auto first = par.begin() + module.table().parameters - static_cast<std::ptrdiff_t>(sigma.size());
     if (std::equal(sigma.begin(), sigma.end(), first)) return;
@@ -148,6 +171,14 @@ void LoadedMode::measure_sides(const Trajectory& motion) {
                                   g.data());
         for (std::size_t k = 0; k < count; ++k) side_sizes[k] = std::max(side_sizes[k], std::abs(g[k]));
     }
+}
+
+std::function<std::optional<std::string>(int, double, const double*, const double*)> LoadedModes::obstacle_of(
+    const LoadedMode& mode) const {
+    return [this, self = &mode](int, double t, const double* y, const double* rate) {
+        const std::lock_guard lock(compiled_.symbols);
+        return self->compiled.corners->obstacle(state_of(*self, t, y, rate));
+    };
 }
 
 void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
@@ -190,6 +221,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         if (on_side_begin)
             on_side_begin(change, self->compiled.jumps->frictions[static_cast<std::size_t>(change.index)]);
     };
+    if (mode.compiled.corners) system.obstacle = obstacle_of(mode);
     system.events_of_forces = events_of_forces(mode.derived.mechanism);
     system.refusal = [self](int k, double t, const double* y) {
         const int friction = self->compiled.jumps->frictions[static_cast<std::size_t>(k)][0].friction;
@@ -318,6 +350,8 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         count_step(*self, t, state);
+        if (self->compiled.corners && !self->contact.switching)
+            look_for_corner(*self, t, state.data(), rate.data());
         on_step_(*self, t, state, rate);
     };
     return mode;

@@ -33,6 +33,7 @@ struct LoadedMode {
     /// Whether `par` has the signs of the piece of motion that runs. If not, those at the state are taken when it
     /// is brought to the constraints.
     bool sides_are_known = false;
+    std::optional<State<double>> last = {};   ///< at the end of the step before, where corners are looked for
     Method running = Method::dop853;          ///< what integrates at present
     double effort = 0, effort_of_series = 0;  ///< predicted time of all steps so far without and with series, ns
     /// Sets the signs in `par` to those at a state of the motion, or to given ones. To be called before anything
@@ -82,6 +83,10 @@ private:
     Rhs with_jacobian(LoadedMode& mode);
     Rhs with_series(LoadedMode& mode);
     void count_step(LoadedMode& mode, double t, std::span<const double> state);
+    State<double> state_of(const LoadedMode& mode, double t, const double* y, const double* rate) const;
+    std::function<std::optional<std::string>(int, double, const double*, const double*)> obstacle_of(
+        const LoadedMode& mode) const;
+    void look_for_corner(LoadedMode& mode, double t, const double* y, const double* rate) const;
 
     CompiledModes& compiled_;
     const Start& start_;

@@ -9,19 +9,21 @@
 namespace alembert {
 
 MassWatch::MassWatch(const Derived& derived, std::vector<double> parameters, std::size_t speeds)
-    : derived_(derived),
-      parameters_(std::move(parameters)),
-      speeds_(speeds),
-      check_(derived.scene, derived.mechanism) {}
+    : MassWatch(derived, std::move(parameters), speeds,
+                std::make_shared<const InertiaCheck>(derived.scene, derived.mechanism)) {}
+
+MassWatch::MassWatch(const Derived& derived, std::vector<double> parameters, std::size_t speeds,
+                     std::shared_ptr<const InertiaCheck> check)
+    : derived_(derived), parameters_(std::move(parameters)), speeds_(speeds), check_(std::move(check)) {}
 
 void MassWatch::operator()(double t, std::span<const double> state) const {
-    for (const Diagnostic& found : check_.findings(pose_at(t, state)))
+    for (const Diagnostic& found : check_->findings(pose_at(t, state)))
         if (found.severity == Severity::error)
             throw IntegrationError(say("at t = {:.6g} {}", t, found.message), t, {});
 }
 
 std::optional<std::string> MassWatch::used_up(const Instant& start, const Instant& now) const {
-    return check_.used_up(pose_at(start.t, start.state), pose_at(now.t, now.state));
+    return check_->used_up(pose_at(start.t, start.state), pose_at(now.t, now.state));
 }
 
 /// The state with the rates of the coordinates 0, on which masses cannot depend.

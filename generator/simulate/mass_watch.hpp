@@ -7,6 +7,7 @@
 ///     if (changes_masses(d.scene)) masses.emplace(d, start.parameters, first.qdot.size());
 ///     if (masses) (*masses)(t, state);         // throws IntegrationError: "at t = 12.6 the mass of … is -0.8"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ class MassWatch {
 public:
     /// `speeds` is how many the state has, with the scene's states at their end. `derived` must outlive this.
     MassWatch(const Derived& derived, std::vector<double> parameters, std::size_t speeds);
+    /// With a check that many motions share.
+    MassWatch(const Derived& derived, std::vector<double> parameters, std::size_t speeds,
+              std::shared_ptr<const InertiaCheck> check);
 
     void operator()(double t, std::span<const double> state) const;
 
@@ -37,7 +41,7 @@ private:
     const Derived& derived_;
     std::vector<double> parameters_;
     std::size_t speeds_;
-    InertiaCheck check_;
+    std::shared_ptr<const InertiaCheck> check_;
 };
 
 /// Whether a mass of the scene changes along a run.

@@ -7,9 +7,12 @@
 #include "alembert/base/error.hpp"
 #include "alembert/ode/energy_error.hpp"
 #include "alembert/ode/running_extrema.hpp"
+#include "base/language/say.hpp"
 #include "model/formalism/with_states.hpp"
 #include "program/known_knots.hpp"
+#include "simulate/consistent_mode.hpp"
 #include "simulate/run_contacts.hpp"
+#include "simulate/table_watch.hpp"
 
 namespace alembert {
 
@@ -41,7 +44,11 @@ Outcome outcome_of(const HybridMotion& motion, const Account& account, bool alon
 }  // namespace
 
 bool is_phased(const Mechanism& m, const Program& program) {
-    if (has_jumps(m) || !m.frictions.empty() || !tables_with_close_knots(program).empty()) return true;
+    if (has_jumps(m) || !m.frictions.empty() || !tables_with_close_knots(program).empty() ||
+        TableWatch::has_work(program) || Corners::of(m))
+        return true;
+    if (std::any_of(m.masses.begin(), m.masses.end(), [](const auto& e) { return !e.mass_rate.is_zero(); }))
+        return true;
     const std::optional<Switched> jumps = switched(program);
     return jumps && std::any_of(jumps->functions.begin(), jumps->functions.end(), [&](int function) {
                const Node& node = program[function];
@@ -58,6 +65,8 @@ PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, c
       work_(work_of(derived.mechanism)),
       compiled_(wishes, derived, work_, method) {
     compiled_.is_shared = true;
+    if (changes_masses(derived.scene))
+        bodies_ = std::make_shared<const InertiaCheck>(derived.scene, derived.mechanism);
     if (!has_jumps(derived.mechanism)) return;
     view_.emplace(derived.mechanism);
     kicks_.emplace(derived.mechanism, derived.scene);
@@ -65,6 +74,7 @@ PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, c
 
 Module PhasedMembers::compile(const State<double>& first) {
     free_ = &compiled_({}, first);
+    has_long_tables_ = TableWatch::has_work(free_->program);
     return free_->code.module;
 }
 
@@ -115,8 +125,21 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
     const bool works = work_ == Work::integrated;
     Account account{.energy_error = EnergyError(static_cast<int>(n), static_cast<int>(width - n), works),
                     .along = RunningExtrema(static_cast<int>(n), static_cast<int>(width))};
+    std::optional<MassWatch> masses;
+    if (bodies_) masses.emplace(derived_, member.parameters, width - n, bodies_);
+    std::optional<TableWatch> tables;
+    if (has_long_tables_) {
+        const std::lock_guard lock(compiled_.symbols);
+        tables.emplace(free_->program, with_held_parameters(member.parameters, free_->program));
+        (*tables)(member.start, state);
+    }
     LoadedModes modes(compiled_, start, first,
                       [&](LoadedMode& mode, double t, std::span<const double> y, std::span<const double> rate) {
+                          if (masses) {
+                              const std::lock_guard lock(compiled_.symbols);
+                              (*masses)(t, y);
+                          }
+                          if (tables) (*tables)(t, y);
                           account.energy_error(mode.module.table(), mode.par, t, y, rate);
                           if (along_) account.along(t, y.data(), rate.data());
                       });
@@ -130,6 +153,7 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
                                   integrated(t, after).data(), jump);
     };
     contacts.kicks.on_set = [&](double t, const double* before, const double* after) {
+        if (tables) tables->jump();
         account.energy_error.set(free.module.table(), free.par, t, integrated(t, before).data(),
                                  integrated(t, after).data());
     };
@@ -145,7 +169,10 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
         initial, options);
     const std::span<const double> end = motion.final_state();
     state.assign(end.begin(), end.begin() + static_cast<std::ptrdiff_t>(width));
-    return outcome_of(motion, account, along_);
+    Outcome outcome = outcome_of(motion, account, along_);
+    if (outcome.failure.empty() && tables && tables->passed())
+        outcome.failure = say("not trustworthy: {}", TableWatch::text_of(*tables->passed()));
+    return outcome;
 }
 
 Outcome PhasedMembers::operator()(const Member& member, std::vector<double>& state) {

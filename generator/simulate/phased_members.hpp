@@ -16,11 +16,13 @@
 #include "analysis/contact/contacts.hpp"
 #include "analysis/contact/kicks.hpp"
 #include "simulate/loaded_modes.hpp"
+#include "simulate/mass_watch.hpp"
 
 namespace alembert {
 
-/// Whether a motion has to be followed piece by piece. Functions that only bend (abs, min, max, tables
-/// without close knots) are left to the control of the steps. `program` is that of the mechanism.
+/// Whether a motion has to be followed piece by piece, or looked at after each step. Functions that only bend
+/// (abs, min, max, short tables without close knots) are left to the control of the steps, unless velocities jump
+/// there. `program` is that of the mechanism.
 bool is_phased(const Mechanism& mechanism, const Program& program);
 
 class PhasedMembers {
@@ -64,6 +66,8 @@ private:
     const CompiledMode* free_ = nullptr;
     std::optional<ContactView> view_;
     std::optional<KickView> kicks_;
+    std::shared_ptr<const InertiaCheck> bodies_;  ///< where masses change
+    bool has_long_tables_ = false;
 };
 
 }  // namespace alembert

@@ -12,6 +12,7 @@
 #include "base/language/libraries.hpp"
 #include "base/language/say.hpp"
 #include "program/event_code.hpp"
+#include "program/jump_watch.hpp"
 #include "program/lower/quick_times.hpp"
 #include "program/switches.hpp"
 #include "program/variation.hpp"
@@ -20,7 +21,7 @@ namespace alembert {
 
 namespace {
 
-void check_smooth_motion(const Mechanism& m, const Program& program) {
+void check_smooth_motion(const Mechanism& m) {
     if (!m.redundant.empty())
         throw ModelError(
             say("--sensitivity: constraint '{}' follows from the others at these values, and would not at others; "
@@ -32,7 +33,10 @@ void check_smooth_motion(const Mechanism& m, const Program& program) {
             say("--sensitivity: the scene has contacts, dry friction or events that change the motion, at which "
                 "derivatives "
                 "jump; leave these out"));
-    if (jumps_along_motion(program, true))
+}
+
+void check_jumps(const Program& program, const std::vector<int>& parameters) {
+    if (jumps_along_motion(program, parameters))
         throw ModelError(
             say("--sensitivity: the accelerations jump where the argument of a 'sign' is zero or a table has a "
                 "corner, and derivatives with them; write a smooth function in its place, or take "
@@ -75,7 +79,7 @@ Sensitivities::Sensitivities(const Derived& d, const Program& program, const Sta
     : start_(start), names_(names) {
     const Mechanism& m = d.mechanism;
     const Starts known(m, names);  // refuses names that cannot be set
-    check_smooth_motion(m, program);
+    check_smooth_motion(m);
     find_wanted(program, of);
     const bool outputs = std::any_of(components_.begin(), components_.end(), [](int k) { return k < 0; });
     auto derivatives = derivatives_of(d, program, {.parameters = true, .values = outputs});
@@ -95,6 +99,7 @@ Sensitivities::Sensitivities(const Derived& d, const Program& program, const Sta
         found.push_back(*one);
         parameters_.push_back(one->kind == StartName::Kind::parameter ? static_cast<int>(one->index) : -1);
     }
+    check_jumps(program, parameters_);
     columns_ = start_derivatives(m, d.equations, start, found);
 }
 
@@ -206,6 +211,11 @@ System Sensitivities::watched(Rhs rhs, double end) const {
             .quick_places = {quick_places_code(program_, Kinks::watched), start_.parameters}};
 }
 
+OnStep Sensitivities::for_jumps() const {
+    auto watch = std::make_shared<JumpWatch>(program_, start_.parameters);
+    return [watch](double t, std::span<const double> y, std::span<const double>) { (*watch)(t, y.data()); };
+}
+
 Trajectory Sensitivities::integrated(const System& system, const std::vector<double>& start,
                                      Options options) const {
     options.method = Method::dop853;
@@ -245,7 +255,8 @@ Sensitivity Sensitivities::forwards(double end, const SensitivityOptions& option
                                           .duration = duration,
                                           .tolerance = options.tolerance,
                                           .sample = options.sample > 0 ? options.sample : duration,
-                                          .budget = options.budget});
+                                          .budget = options.budget,
+                                          .on_step = for_jumps()});
     Sensitivity result{.time = end,
                        .of = of_,
                        .by = names_,
@@ -274,9 +285,11 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, const Sensitivit
                     .duration = duration,
                     .tolerance = wishes.tolerance,
                     .sample = duration,
-                    .budget = wishes.budget};
+                    .budget = wishes.budget,
+                    .on_step = for_jumps()};
     const System forwards = watched(alone, end);
     const Statistics counted = integrated(forwards, state_, options).statistics;
+    options.on_step = {};
     if (counted.switched) return std::nullopt;
     options.sample = duration / static_cast<double>(1 + counted.steps / steps_between_rows);
     const Trajectory motion = integrated(forwards, state_, options);

@@ -71,6 +71,8 @@ private:
     Sensitivity forwards(double end, const SensitivityOptions& options) const;
     std::optional<Sensitivity> backwards(double end, const SensitivityOptions& options) const;
     System watched(Rhs rhs, double end) const;
+    /// Throws where the motion passes a jump, at the end of a step.
+    OnStep for_jumps() const;
     Trajectory integrated(const System& system, const std::vector<double>& start, Options options) const;
 
     Program program_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/language/say.hpp"
 #include "program/known_knots.hpp"
 
 namespace alembert {
@@ -55,6 +56,20 @@ std::optional<double> close_knot(const TableAxis& axis, double x, double end, do
 
 }  // namespace
 
+bool TableWatch::has_work(const Program& program) {
+    const std::vector<int> needed = program.needed(program.right_hand_side());
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        const Node& node = program[id];
+        if (node.op != Op::unspecified || program.table_of(node) == nullptr || node.is_constant()) return false;
+        const Program::TableCall call = program.table_call(node);
+        for (std::size_t k = 0; k < call.arguments; ++k)
+            if (!program.table_of(node)->tells_knots(k, call.orders) &&
+                !has_known_knots(program, *program.table_of(node), call, k))
+                return true;
+        return false;
+    });
+}
+
 TableWatch::TableWatch(const Program& program, const std::vector<double>& parameters)
     : coordinates_(program.coordinates.size()) {
     std::vector<int> arguments;
@@ -84,6 +99,13 @@ void TableWatch::operator()(double t, std::span<const double> state) {
     for (const Call& call : calls_)
         if (before_.size() == now_.size() && !passed_) look(call, t);
     before_ = now_;
+}
+
+std::string TableWatch::text_of(const Passed& passed) {
+    return say(
+        "a step that ends at t = {:.6g} passes a feature of the table '{}' near {:.6g} at once; a max_step in "
+        "[simulation] makes steps shorter",
+        passed.time, passed.table, passed.near);
 }
 
 void TableWatch::look(const Call& call, double t) {

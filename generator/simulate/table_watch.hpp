@@ -28,6 +28,9 @@ class TableWatch {
 public:
     TableWatch(const Program& program, const std::vector<double>& parameters);
 
+    /// Whether there is a table over the state to look at.
+    static bool has_work(const Program& program);
+
     void operator()(double t, std::span<const double> state);
     /// The next state does not follow from the last one.
     void jump() { before_.clear(); }
@@ -37,6 +40,7 @@ public:
         double near, time;
     };
     const std::optional<Passed>& passed() const { return passed_; }
+    static std::string text_of(const Passed& passed);
 
 private:
     struct Call {

@@ -97,14 +97,9 @@ std::vector<std::string> distrust_reasons(const Evidence& e) {
     if (e.passed_place)
         reasons.push_back(
             say("the motion meets a place near t = {:.6g} where a force changes fast, which steps of {:g} s pass "
-                "over; "
-                "take shorter ones, or a method that chooses them",
+                "over; take shorter ones, or a method that chooses them",
                 *e.passed_place, e.fixed_step));
-    if (e.passed)
-        reasons.push_back(
-            say("a step that ends at t = {:.6g} passes a feature of the table '{}' near {:.6g} at once; a "
-                "max_step in [simulation] makes steps shorter",
-                e.passed->time, e.passed->table, e.passed->near));
+    if (e.passed) reasons.push_back(TableWatch::text_of(*e.passed));
     return reasons;
 }
 

@@ -17,6 +17,7 @@
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
 #include "program/differentiate.hpp"
+#include "program/jump_watch.hpp"
 #include "program/lower/lower.hpp"
 #include "program/switches.hpp"
 #include "stability/linear/tangent.hpp"
@@ -30,12 +31,16 @@ namespace {
 constexpr double forgotten = 0.1;  // of the motion, before estimates begin
 constexpr int most_intervals = 20000, least_intervals = 400, most_rows = 20;
 
-Rhs emitted(const Derived& d, const Start& start) {
+Program differentiated(const Derived& d) {
     auto program = derivatives_of(d, lowered(d).program);
     if (!program)
         throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
-    const Source source = emit(program->program);
-    const Compilation compiled = compile(source.text, program->program.name + "_jacobian", {});
+    return std::move(program->program);
+}
+
+Rhs emitted(const Program& program, const Start& start) {
+    const Source source = emit(program);
+    const Compilation compiled = compile(source.text, program.name + "_jacobian", {});
     return make_rhs(load(compiled.object), start.parameters);
 }
 
@@ -117,7 +122,13 @@ Rhs with_variations(const Rhs& rhs, Index N, Index columns) {
 class Benettin {
 public:
     Benettin(LyapunovExponents& result, const Derived& d, const Start& start, const ExponentOptions& options)
-        : result_(result), options_(options), rhs_(emitted(d, start)), space_(d, start), start_(start.t) {
+        : result_(result),
+          options_(options),
+          program_(differentiated(d)),
+          rhs_(emitted(program_, start)),
+          watch_(program_, start.parameters),
+          space_(d, start),
+          start_(start.t) {
         const State<double> state = state_of(start, d.mechanism, d.equations);
         y_ = state.q;
         y_.insert(y_.end(), state.qdot.begin(), state.qdot.end());
@@ -149,6 +160,9 @@ public:
 
     void go() {
         const Rhs both = with_variations(rhs_, N_, columns_);
+        const auto look = [this](double t, std::span<const double> y, std::span<const double>) {
+            watch_(t, y.data());
+        };
         Eigen::VectorXd sums = Eigen::VectorXd::Zero(columns_);
         double trace = 0, counted = 0;
         std::vector<LyapunovExponents::Row> all;
@@ -163,7 +177,8 @@ public:
                                                 {.start = t,
                                                  .duration = result_.interval,
                                                  .tolerance = options_.tolerance,
-                                                 .sample = result_.interval});
+                                                 .sample = result_.interval,
+                                                 .on_step = look});
             if (motion.failure)
                 throw IntegrationError(motion.failure->message, motion.failure->time, motion.failure->state);
             const auto end = motion.final_state();
@@ -234,7 +249,9 @@ private:
 
     LyapunovExponents& result_;
     const ExponentOptions& options_;
+    Program program_;
     Rhs rhs_;
+    JumpWatch watch_;
     TangentSpace space_;
     double start_;
     std::vector<double> y_;

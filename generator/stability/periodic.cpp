@@ -11,6 +11,7 @@
 #include "base/language/say.hpp"
 #include "model/energy.hpp"
 #include "program/differentiate.hpp"
+#include "program/jump_watch.hpp"
 #include "program/lower/lower.hpp"
 #include "program/quad_motion.hpp"
 #include "program/switches.hpp"
@@ -177,6 +178,26 @@ PeriodEnd<Real> PeriodicSystem::monodromy(const PeriodicMotion<Real>& motion, do
     return end;
 }
 
+/// Follows one period in double precision.
+template <typename Real>
+void PeriodicSystem::look_for_jumps(const PeriodicMotion<Real>& motion) const {
+    constexpr double usual = 1e-9;
+    std::vector<double> parameters, y;
+    for (const Real& p : motion.parameters) parameters.push_back(static_cast<double>(p));
+    for (const Real& x : motion.x) y.push_back(static_cast<double>(x));
+    JumpWatch watch(program_, parameters);
+    const Variation<double> f(program_, parameters);
+    const Rhs rhs =
+        make_rhs(static_cast<int>(y.size()), [&f](double t, const double* x, double* rate) { f(t, x, rate, 0); });
+    integrate(
+        rhs, y,
+        {.start = static_cast<double>(motion.t),
+         .duration = static_cast<double>(motion.period),
+         .tolerance = usual,
+         .budget = 200'000,
+         .on_step = [&](double t, std::span<const double> x, std::span<const double>) { watch(t, x.data()); }});
+}
+
 template <typename Real>
 bool PeriodicSystem::shoot(PeriodicMotion<Real>& motion) const {
     const Variation<Real> f(program_, motion.parameters);
@@ -192,7 +213,10 @@ bool PeriodicSystem::shoot(PeriodicMotion<Real>& motion) const {
             largest = std::max(largest, miss < 0 ? Real(-miss) : miss);
         }
         motion.closure_error = static_cast<double>(largest);
-        if (motion.closure_error < Precision<Real>::closed) return true;
+        if (motion.closure_error < Precision<Real>::closed) {
+            look_for_jumps(motion);
+            return true;
+        }
         const Index N = static_cast<Index>(rows.size());
         Eigen::MatrixXd J(N, N + (autonomous_ ? 1 : 0));
         Eigen::VectorXd g(N);

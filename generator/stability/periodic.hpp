@@ -74,6 +74,8 @@ private:
     Frame frame(const PeriodicMotion<Real>& motion) const;
     template <typename Real>
     bool settled(PeriodicMotion<Real>& motion) const;
+    template <typename Real>
+    void look_for_jumps(const PeriodicMotion<Real>& motion) const;
 
     const Derived& derived_;
     Program program_;

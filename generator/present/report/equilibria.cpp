@@ -16,10 +16,19 @@ Json exact_of(const Mechanism& m, const ClosedRoot& root) {
     return result;
 }
 
-std::vector<std::string> free_of(const Mechanism& m, const SteadyFamily& family) {
-    std::vector<std::string> names;
-    for (const int i : family.free) names.push_back(m.q[i].get_name());
-    return names;
+/// " from 0 to 1.3": the ends of a continuum of one dimension that are known.
+std::string ends_of(const Mechanism& m, const SteadyFamily& family) {
+    if (!family.from && !family.to) return "";
+    const int i = family.free[0];
+    const ShownUnit unit(i < m.size() ? m.shown_units[static_cast<std::size_t>(i)]
+                                      : m.states[static_cast<std::size_t>(i - m.size())].shown);
+    const auto shown = [&](long double x) {
+        const std::string name = unit.text({});
+        return fmt::format("{:.10g}{}{}", unit.value(static_cast<double>(x)) + 0.0, name.empty() ? "" : " ", name);
+    };
+    if (!family.from) return say(" up to {}", shown(*family.to));
+    if (!family.to) return say(" from {} on", shown(*family.from));
+    return say(" from {} to {}", shown(*family.from), shown(*family.to));
 }
 
 Json json_of(const Equilibria& found, const Equilibrium& one) {
@@ -41,7 +50,9 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
     result["state"] = name_of(one.known);
     result["isolated"] = !one.family;
     if (one.family) {
-        result["family"] = {{"dimension", one.family->dimension}, {"free", free_of(m, *one.family)}};
+        result["family"] = {{"dimension", one.family->dimension}, {"free", free_names(m, *one.family)}};
+        if (one.family->from) result["family"]["from"] = static_cast<double>(*one.family->from) + 0.0;
+        if (one.family->to) result["family"]["to"] = static_cast<double>(*one.family->to) + 0.0;
     }
     result["stable"] = name_of(one.judgement.stable);
     result["because"] = one.judgement.because;
@@ -60,6 +71,14 @@ std::string numbers_of(const Equilibria& found, StateKnown known) {
 }
 
 }  // namespace
+
+std::vector<std::string> free_names(const Mechanism& m, const SteadyFamily& family) {
+    std::vector<std::string> names;
+    for (const int i : family.free)
+        names.push_back(i < m.size() ? m.q[i].get_name()
+                                     : m.states[static_cast<std::size_t>(i - m.size())].derivative[0].get_name());
+    return names;
+}
 
 Json by_name_of(const Mechanism& m, const std::vector<double>& values) {
     Json result = Json::object();
@@ -111,8 +130,9 @@ std::string as_text(const Equilibria& found) {
                 unit.value(one.start.states[k] + 0.0));
         }
         if (one.family)
-            put(page, "   {}\n",
-                say("beside it there is one for each value of {}", fmt::join(free_of(m, *one.family), ", ")));
+            put(page, "   {}{}\n",
+                say("beside it there is one for each value of {}", fmt::join(free_names(m, *one.family), ", ")),
+                ends_of(m, *one.family));
         if (one.exact && !one.exact->where.empty())
             say_on(page, "   where {}\n", fmt::join(one.exact->where, ", "));
         say_on(page, "   stable: {} ({})\n\n", translated(name_of(one.judgement.stable)), one.judgement.because);

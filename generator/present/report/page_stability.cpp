@@ -5,6 +5,7 @@
 
 #include "base/language/say.hpp"
 #include "present/report/bench.hpp"
+#include "present/report/equilibria.hpp"
 #include "present/report/page_parts.hpp"
 #include "present/report/page_plot.hpp"
 
@@ -63,7 +64,8 @@ std::string state_text(const Equilibria& found, const Equilibrium& one) {
     if (text.empty()) return say("any state");
     if (!one.family) return text;
     std::string free;
-    for (const int i : one.family->free) free += (free.empty() ? "" : ", ") + html_letters(m.q[i].get_name());
+    for (const std::string& name : free_names(m, *one.family))
+        free += (free.empty() ? "" : ", ") + html_letters(name);
     return text + "<br>" + say("beside it there is one for each value of {}", free);
 }
 

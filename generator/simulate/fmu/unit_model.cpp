@@ -13,6 +13,7 @@
 #include "program/lower/quick_times.hpp"
 #include "program/switches.hpp"
 #include "program/tangent.hpp"
+#include "simulate/corners.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/fmu/event_bases.hpp"
 #include "simulate/narrow_places.hpp"
@@ -205,6 +206,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
                                        "instead, and its importer records them\n"));
             break;
         }
+    warn_of_corners(model);
     Program program = with_signs_told(model, lowered(model).program);
     Start start = start_of(model.mechanism);
     note_given(model, start);

@@ -9,7 +9,6 @@
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
 #include "analysis/contact/contacts.hpp"
-#include "analysis/exact/cells.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
@@ -144,10 +143,11 @@ StabilityHint undecided_as_open(StabilityHint judgement) {
     return judgement;
 }
 
-/// Throws if a force is the same at every state and nothing balances it. In a dead zone it is so, but not beyond.
+/// Throws if a force is the same at every state and nothing balances it. In a dead zone it is so, and on a flat
+/// piece of a table, but not beyond.
 void check_balance(const Equilibria& found, const SteadyProblem& problem) {
-    Program program = problem.residuals().program;
-    if (!Cells(program, problem.residuals().forcing).empty()) return;
+    const Residuals& residuals = problem.residuals();
+    if (!Borders(residuals.program, residuals.forcing).empty()) return;
     for (std::size_t i = 0; i < found.search.constant.size(); ++i)
         if (found.search.constant[i]) {
             const SteadySystem here = problem.linearized_at(problem.start(), problem.start().u);

@@ -28,10 +28,10 @@ constexpr long double arrived = 1e-6L, least_way = 1e-3L, usual_way = 0.25L, str
 /// What a first-order change may be without a change of the equations.
 struct Tangents {
     LongMatrix q, u;    ///< columns: changes of coordinates and speeds
-    LongMatrix scaled;  ///< those of essential coordinates, in units of the scales; columns are orthonormal
+    LongMatrix scaled;  ///< of essential coordinates and states, in units of the scales; columns are orthonormal
 };
 
-/// Columns in which essential coordinates change, orthonormal in these.
+/// Columns in which essential coordinates or states change, orthonormal in these.
 Tangents tangents_at(const SteadyProblem& problem, const Instant<long double>& at, Rates rates) {
     const SteadySystem here = problem.linearized_at(at, at.u, rates);
     const Index n = problem.residuals().n, columns = here.by.cols();
@@ -52,8 +52,13 @@ Tangents tangents_at(const SteadyProblem& problem, const Instant<long double>& a
         local.row(here.unknowns[static_cast<std::size_t>(j)]) =
             unit[j] * svd.right.row(j).rightCols(columns - rank);
     const LongMatrix whole = here.tangent.along * local;
-    LongMatrix scaled = whole.topRows(n);
-    for (Index i = 0; i < n; ++i) scaled.row(i) *= problem.essential()[i] ? 1 / problem.scales()[i] : 0;
+    const std::vector<MovingState>& states = problem.states();
+    LongMatrix scaled(n + static_cast<Index>(states.size()), whole.cols());
+    for (Index i = 0; i < n; ++i)
+        scaled.row(i) = whole.row(i) * (problem.essential()[i] ? 1 / problem.scales()[i] : 0);
+    for (std::size_t k = 0; k < states.size(); ++k)
+        scaled.row(n + static_cast<Index>(k)) =
+            whole.row(n + static_cast<Index>(states[k].place)) / states[k].scale;
     const LongSingularValues own = singular_values(scaled);
     Index count = 0;
     while (count < own.values.size() && own.values[count] > 1e-6L) ++count;
@@ -72,15 +77,19 @@ Instant<long double> moved(const Instant<long double>& at, const Tangents& along
     return result;
 }
 
-/// The way from a state to another by essential coordinates, in units of the scales.
+/// The way from an instant to another by essential coordinates and states, in units of the scales.
 LongColumn way(const SteadyProblem& problem, const std::vector<bool>& is_angle, const Instant<long double>& from,
                const Instant<long double>& to) {
-    LongColumn result = LongColumn::Zero(static_cast<Index>(from.q.size()));
+    const std::vector<MovingState>& states = problem.states();
+    LongColumn result = LongColumn::Zero(static_cast<Index>(from.q.size() + states.size()));
     for (std::size_t i = 0; i < from.q.size(); ++i) {
         if (!problem.essential()[i]) continue;
         const long double d = to.q[i] - from.q[i];
         result[static_cast<Index>(i)] = (is_angle[i] ? std::remainder(d, whole_turn) : d) / problem.scales()[i];
     }
+    for (std::size_t k = 0; k < states.size(); ++k)
+        result[static_cast<Index>(from.q.size() + k)] =
+            (to.u[states[k].place] - from.u[states[k].place]) / states[k].scale;
     return result;
 }
 
@@ -94,7 +103,7 @@ long double change_of_speeds(const Instant<long double>& from, const Instant<lon
     return largest / size;
 }
 
-/// Coordinates by which the directions differ: those that are written first, where they differ clearly.
+/// Coordinates and states by which the directions differ: those that are written first, where they differ clearly.
 std::vector<int> coordinates_of(LongMatrix directions) {
     std::vector<int> result;
     const Index wanted = directions.cols();
@@ -127,6 +136,34 @@ LongColumn next_step(const LongMatrix& tangents, const LongColumn& left, const L
     return by.norm() > longest ? LongColumn(longest / by.norm() * by) : by;
 }
 
+/// The root beside another one where that is moved, if it is about as far.
+std::optional<SteadyRoot> root_near(const SteadyProblem& problem, const std::vector<bool>& is_angle,
+                                    const Instant<long double>& at, const Tangents& along, const LongColumn& by,
+                                    Rates rates) {
+    auto found = problem.solve(moved(at, along, by), rates);
+    if (!found) return std::nullopt;
+    const long double apart = way(problem, is_angle, at, found->at).norm(), wanted = by.norm();
+    return apart > wanted / 3 && apart < 3 * wanted ? found : std::nullopt;
+}
+
+/// Whether there are roots on the way from a root to one beside it and beyond, which may bend.
+bool goes_on(const SteadyProblem& problem, const std::vector<bool>& is_angle, const SteadyRoot& root,
+             const SteadyRoot& beside, Rates rates) {
+    LongColumn last = way(problem, is_angle, root.at, beside.at);
+    Instant<long double> at = beside.at;
+    for (long double gone = last.norm(); gone < farther * beside_root; gone += last.norm()) {
+        const Tangents here = tangents_at(problem, at, rates);
+        if (here.scaled.cols() == 0) return false;
+        const LongColumn on = here.scaled.transpose() * last;
+        if (!(on.norm() > straight * last.norm())) return false;
+        const auto next = root_near(problem, is_angle, at, here, 2 * last.norm() / on.norm() * on, rates);
+        if (!next) return false;
+        last = way(problem, is_angle, at, next->at);
+        at = next->at;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::optional<SteadyFamily> family_of(const SteadyProblem& problem, const std::vector<bool>& is_angle,
@@ -137,15 +174,13 @@ std::optional<SteadyFamily> family_of(const SteadyProblem& problem, const std::v
     Index least = k;
     for (Index j = 0; j < k; ++j)
         for (const long double step : {beside_root, -beside_root}) {
-            const auto root_at = [&](long double distance) -> std::optional<SteadyRoot> {
-                auto found_there = problem.solve(moved(root.at, here, distance * LongColumn::Unit(k, j)), rates);
-                if (!found_there) return std::nullopt;
-                const long double apart = way(problem, is_angle, root.at, found_there->at).norm();
-                const bool is_near = apart > std::abs(distance) / 3 && apart < 3 * std::abs(distance);
-                return is_near ? found_there : std::nullopt;
+            const auto beside = root_near(problem, is_angle, root.at, here, step * LongColumn::Unit(k, j), rates);
+            const auto is_far = [&] {
+                return root_near(problem, is_angle, root.at, here, farther * step * LongColumn::Unit(k, j), rates)
+                           .has_value() ||
+                       goes_on(problem, is_angle, root, *beside, rates);
             };
-            const auto beside = root_at(step);
-            if (!beside || !root_at(farther * step)) continue;
+            if (!beside || !is_far()) continue;
             const LongColumn to = way(problem, is_angle, root.at, beside->at);
             found.conservativeResize(Eigen::NoChange, found.cols() + 1);
             found.col(found.cols() - 1) = to / to.norm();
@@ -159,11 +194,15 @@ std::optional<SteadyFamily> family_of(const SteadyProblem& problem, const std::v
     if (different < least) directions = singular_values(found).left.leftCols(different);
     SteadyFamily family{.dimension = static_cast<int>(std::min(different, least)),
                         .free = coordinates_of(directions)};
+    for (int& i : family.free)
+        if (i >= problem.residuals().n)
+            i = problem.residuals().n +
+                static_cast<int>(problem.states()[static_cast<std::size_t>(i - problem.residuals().n)].number);
     return family;
 }
 
-bool leads_to(const SteadyProblem& problem, const std::vector<bool>& is_angle, const SteadyRoot& from,
-              const SteadyRoot& to, Rates rates) {
+bool leads_to(const FamilyWays& ways, const SteadyRoot& from, const SteadyRoot& to) {
+    const auto& [problem, borders, is_angle, rates] = ways;
     Instant<long double> at = from.at;
     LongColumn last;
     long double shortened = 1;
@@ -178,7 +217,7 @@ bool leads_to(const SteadyProblem& problem, const std::vector<bool>& is_angle, c
         const auto next = problem.solve(aim, rates);
         const long double length = std::max(by.norm(), change_of_speeds(at, aim));
         if (!next || !(way(problem, is_angle, aim, next->at).norm() < bend * length) ||
-            !(change_of_speeds(aim, next->at) < bend * length)) {
+            !(change_of_speeds(aim, next->at) < bend * length) || borders.passed(at, next->at) > 1) {
             shortened /= 2;
             if (by.norm() < least_way) return false;
             continue;
@@ -191,6 +230,99 @@ bool leads_to(const SteadyProblem& problem, const std::vector<bool>& is_angle, c
         was_away = was_away || round > 2 * last.norm();
     }
     return false;
+}
+
+namespace {
+
+/// A way along a family of dimension 1, on which one coordinate or state rises or falls.
+class WayOut {
+public:
+    WayOut(const FamilyWays& ways, int free)
+        : problem_(ways.problem), borders_(ways.borders), is_angle_(ways.is_angle), rates_(ways.rates) {
+        const int n = problem_.residuals().n;
+        row_ = free;
+        for (std::size_t k = 0; free >= n && k < problem_.states().size(); ++k)
+            if (static_cast<int>(problem_.states()[k].number) == free - n) row_ = n + static_cast<int>(k);
+    }
+
+    /// The value at the end; nothing if none was found, or if `arrives` is true on the way: it gets each state,
+    /// and how far the next one may be.
+    template <typename Arrives>
+    std::optional<long double> end(const SteadyRoot& root, long double side, const Arrives& arrives) const {
+        constexpr long double shortest = 1e-13L, beyond = 1e-6L, turns = 1e-3L;
+        Instant<long double> at = root.at;
+        LongColumn last;
+        long double step = usual_way / 4;
+        for (int tries = 0; tries < 3 * most_ways; ++tries) {
+            const Tangents here = tangents_at(problem_, at, rates_);
+            if (here.scaled.cols() == 0 && !borders_.empty())
+                return value(at);  // at a knot beyond which forces act
+            if (here.scaled.cols() != 1) return std::nullopt;
+            LongColumn by = LongColumn::Unit(1, 0);
+            if (here.scaled(row_, 0) * side < 0) by = -by;
+            const LongColumn along = here.scaled * by;
+            if (!(along[row_] * side > turns) || (last.size() > 0 && along.dot(last) < 0)) return std::nullopt;
+            const Instant<long double> aim = moved(at, here, step * by);
+            const auto next = problem_.solve(aim, rates_);
+            if (!next || !(way(problem_, is_angle_, aim, next->at).norm() < bend * step) ||
+                borders_.passed(at, next->at) > 1) {
+                step /= 2;
+                if (step >= shortest) continue;
+                const bool is_border = borders_.passed(at, moved(at, here, beyond * by)) > 0;
+                return is_border ? std::optional(value(at))
+                                 : std::nullopt;  // else a pole, of which digits are lost
+            }
+            last = along;
+            at = next->at;
+            step = std::min(2 * step, usual_way);
+            if (arrives(at, 2 * step)) return std::nullopt;
+            if (is_whole_turn(root.at, at)) return std::nullopt;
+        }
+        return std::nullopt;
+    }
+
+private:
+    long double value(const Instant<long double>& at) const {
+        const auto row = static_cast<std::size_t>(row_);
+        return row < at.q.size() ? at.q[row] : at.u[problem_.states()[row - at.q.size()].place];
+    }
+    bool is_whole_turn(const Instant<long double>& from, const Instant<long double>& to) const {
+        const auto row = static_cast<std::size_t>(row_);
+        return row < is_angle_.size() && is_angle_[row] && std::abs(value(to) - value(from)) > whole_turn;
+    }
+
+    const SteadyProblem& problem_;
+    const Borders& borders_;
+    const std::vector<bool>& is_angle_;
+    Rates rates_;
+    int row_;
+};
+
+}  // namespace
+
+void find_ends(const FamilyWays& ways, SteadyFamily& family, const SteadyRoot& root) {
+    if (family.dimension != 1) return;
+    const WayOut out(ways, family.free[0]);
+    const auto never = [](const Instant<long double>&, long double) { return false; };
+    family.from = out.end(root, -1, never);
+    family.to = out.end(root, 1, never);
+}
+
+bool leads_round(const FamilyWays& ways, const SteadyFamily& family, const SteadyRoot& from,
+                 const SteadyRoot& to) {
+    const auto free = static_cast<std::size_t>(family.free[0]);
+    if (family.dimension != 1 || free >= ways.is_angle.size() || !ways.is_angle[free]) return false;
+    const WayOut out(ways, family.free[0]);
+    bool arrived = false;
+    const auto arrives = [&](const Instant<long double>& at, long double reach) {
+        SteadyRoot here = from;
+        here.at = at;
+        arrived = way(ways.problem, ways.is_angle, at, to.at).norm() < reach && leads_to(ways, here, to);
+        return arrived;
+    };
+    for (const long double side : {-1.0L, 1.0L})
+        if (!arrived) out.end(from, side, arrives);
+    return arrived;
 }
 
 }  // namespace alembert

@@ -57,6 +57,18 @@ std::vector<long double> scales_of(const Mechanism& m, const Start& start, const
     return result;
 }
 
+/// At least such that an argument of a table goes through a piece of it by an ordinary change.
+std::vector<long double> scaled_by_tables(std::vector<long double> scales, const SteadyProblem& problem,
+                                          const Borders& borders, const std::vector<bool>& is_angle) {
+    for (const Borders::Argument& argument : borders.arguments()) {
+        const Borders::Slope slope = borders.slope(argument, problem.start());
+        for (std::size_t i = 0; i < scales.size(); ++i)
+            if (const long double by = std::abs(slope.by_q[i]); !is_angle[i] && by > 0 && std::isfinite(by))
+                scales[i] = std::max(scales[i], argument.width / by);
+    }
+    return scales;
+}
+
 void sort_roots(std::vector<FoundRoot>& roots) {
     std::sort(roots.begin(), roots.end(), [](const FoundRoot& a, const FoundRoot& b) {
         for (const auto part : {&Instant<long double>::q, &Instant<long double>::u}) {
@@ -92,6 +104,14 @@ void note_failure(SteadySearch& found, const SteadyProblem& problem, Instant<lon
     }
 }
 
+Borders borders_of(const SteadyProblem& problem) {
+    const Residuals& r = problem.residuals();
+    std::vector<int> roots;
+    for (const auto* part : {&r.forcing, &r.mass, &r.gamma, &r.row, &r.rate, &r.position, &r.velocity})
+        roots.insert(roots.end(), part->begin(), part->end());
+    return Borders(r.program, roots, r.inputs);
+}
+
 }  // namespace
 
 void wrap_angles(Instant<long double>& at, const std::vector<bool>& is_angle) {
@@ -107,11 +127,14 @@ long double distance(const SteadyProblem& problem, const std::vector<bool>& is_a
         const long double d = a.q[i] - b.q[i];
         result = std::max(result, std::abs(is_angle[i] ? std::remainder(d, turn) : d) / problem.scales()[i]);
     }
+    for (const MovingState& z : problem.states())
+        result = std::max(result, std::abs(a.u[z.place] - b.u[z.place]) / z.scale);
     return result;
 }
 
 std::vector<bool> find_angles(const SteadyProblem& problem) {
     const Residuals& r = problem.residuals();
+    const Borders borders = borders_of(problem);
     std::vector<bool> result(static_cast<std::size_t>(r.n), true);
     std::mt19937_64 random(4711);
     const auto unit = [&] { return static_cast<long double>(random() >> 11) / 4503599627370496.0L - 1; };
@@ -125,7 +148,13 @@ std::vector<bool> find_angles(const SteadyProblem& problem) {
         for (long double& q : state.q) q += unit();
         for (long double& u : state.qdot) u += unit();
         const std::vector<long double> here = interpret(r.program, state);
+        const Instant<long double> at{.parameters = state.parameters,
+                                      .q = state.q,
+                                      .u = state.qdot,
+                                      .inputs = problem.start().inputs,
+                                      .t = state.t};
         for (std::size_t i = 0; i < state.q.size(); ++i) {
+            if (!borders.has_period(i, turn, at)) result[i] = false;
             State<long double> turned = state;
             turned.q[i] += turn;
             const std::vector<long double> there = interpret(r.program, turned);
@@ -140,19 +169,14 @@ std::vector<bool> find_angles(const SteadyProblem& problem) {
 
 namespace {
 
-/// A first-order state of the scene that moves, where Newton's method starts.
-struct StartOfState {
-    std::size_t place;  ///< among the speeds
-    long double scale;  ///< the size of its ordinary values
-};
-
-std::vector<StartOfState> starts_of_states(const SteadyProblem& problem, const Mechanism& m, const Start& start) {
-    std::vector<StartOfState> result;
+std::vector<MovingState> moving_states(const SteadyProblem& problem, const Mechanism& m, const Start& start) {
+    std::vector<MovingState> result;
     const Residuals& r = problem.residuals();
     for (std::size_t k = 0, first = static_cast<std::size_t>(r.s - r.states); r.states > 0 && k < m.states.size();
          ++k)
-        if (!m.states[k].rate.is_zero())
-            result.push_back({.place = first + k,
+        if (!problem.is_held(first + k))
+            result.push_back({.number = k,
+                              .place = first + k,
                               .scale = size_beside(m, start, m.states[k].unit,
                                                    static_cast<long double>(std::abs(start.states[k])))});
     return result;
@@ -174,16 +198,72 @@ int usual_starts(const SteadyProblem& problem, int dimension) {
 
 }  // namespace
 
+namespace {
+
+/// States at which the argument of a table lies in the middle of each of its pieces, or of some of many.
+void add_starts_in(const Borders::Argument& argument, const SteadyProblem& problem, const Borders& borders,
+                   const std::function<Instant<long double>(int)>& spread,
+                   std::vector<Instant<long double>>& starts) {
+    constexpr std::size_t most_pieces = 500;
+    constexpr int most_steps = 40;
+    constexpr long double near_middle = 0.1L;  // of a piece
+    const std::size_t count = argument.middles.size(), each = (count + most_pieces - 1) / most_pieces;
+    for (std::size_t k = 0; k < count; k += each) {
+        Instant<long double> at = spread(static_cast<int>(k / each));
+        const long double aim = argument.middles[k];
+        for (int step = 0; step < most_steps; ++step) {
+            const Borders::Slope here = borders.slope(argument, at);
+            if (!std::isfinite(here.value)) break;
+            if (std::abs(here.value - aim) < near_middle * argument.widths[k]) {
+                starts.push_back(at);
+                break;
+            }
+            // By what changes it most.
+            long double most = 0;
+            long double* moves = nullptr;
+            long double slope = 0;
+            const auto look = [&](long double by, long double scale, long double& x) {
+                if (std::abs(by) * scale > most) most = std::abs(by) * scale, moves = &x, slope = by;
+            };
+            for (std::size_t i = 0; i < at.q.size(); ++i)
+                if (problem.essential()[i]) look(here.by_q[i], problem.scales()[i], at.q[i]);
+            for (const MovingState& z : problem.states()) look(here.by_u[z.place], z.scale, at.u[z.place]);
+            if (moves == nullptr) break;
+            *moves += (aim - here.value) / slope;
+        }
+    }
+}
+
+/// The end of a flat piece is no state of its own.
+void drop_ends(const FamilyWays& ways, SteadySearch& found) {
+    const auto is_end = [&](const FoundRoot& root) {
+        return !root.family && !ways.problem.has_first_approximation(root.at) &&
+               std::any_of(found.roots.begin(), found.roots.end(), [&](const FoundRoot& other) {
+                   return other.family &&
+                          (leads_to(ways, other, root) || leads_round(ways, *other.family, other, root));
+               });
+    };
+    std::vector<FoundRoot> kept;
+    for (const FoundRoot& root : found.roots)
+        if (!is_end(root)) kept.push_back(root);
+    found.in_families += static_cast<int>(found.roots.size() - kept.size());
+    found.roots = std::move(kept);
+}
+
+}  // namespace
+
 SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Start& start,
                            const SearchOptions& options) {
     SteadySearch found;
     found.is_angle = find_angles(problem);
-    problem.set_scales(scales_of(m, start, found.is_angle));
-    const std::vector<StartOfState> states = starts_of_states(problem, m, start);
+    const Borders borders = borders_of(problem);
+    problem.set_scales(scaled_by_tables(scales_of(m, start, found.is_angle), problem, borders, found.is_angle));
+    problem.set_states(moving_states(problem, m, start));
+    const std::vector<MovingState>& states = problem.states();
     const auto dimension = std::count(problem.essential().begin(), problem.essential().end(), true) +
                            static_cast<std::ptrdiff_t>(states.size());
     found.starts = options.starts > 0 ? options.starts : usual_starts(problem, static_cast<int>(dimension));
-    const auto from = [&](int k) {
+    const auto spread = [&](int k) {
         Instant<long double> at = problem.start();
         std::size_t place = 0;
         for (std::size_t i = 0; i < at.q.size(); ++i) {
@@ -191,16 +271,22 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
             const long double part = 2 * halton(k, place++) - 1;
             at.q[i] = found.is_angle[i] ? pi * part : problem.scales()[i] * spread_out(k, part);
         }
-        for (const StartOfState& z : states)
+        for (const MovingState& z : states)
             if (k > 0) at.u[z.place] = z.scale * spread_out(k, 2 * halton(k, place++) - 1);
         return at;
+    };
+    std::vector<Instant<long double>> pieces;
+    for (const Borders::Argument& argument : borders.arguments())
+        add_starts_in(argument, problem, borders, spread, pieces);
+    const int spread_starts = found.starts;
+    found.starts += static_cast<int>(pieces.size());
+    const auto from = [&](int k) {
+        return k < spread_starts ? spread(k) : pieces[static_cast<std::size_t>(k - spread_starts)];
     };
     const auto is_known = [&](const SteadyRoot& root) {
         return std::any_of(found.roots.begin(), found.roots.end(), [&](const FoundRoot& other) {
             const bool sharp = root.isolated && other.isolated;
-            long double apart = distance(problem, found.is_angle, root.at, other.at);
-            for (const StartOfState& z : states)  // continua are those of coordinates
-                if (sharp) apart = std::max(apart, std::abs(root.at.u[z.place] - other.at.u[z.place]) / z.scale);
+            const long double apart = distance(problem, found.is_angle, root.at, other.at);
             if (apart < (sharp ? same : same_if_singular)) return true;
             return apart < same_if_multiple && (meeting_at(problem, root.at) != Meeting::none ||
                                                 meeting_at(problem, other.at) != Meeting::none);
@@ -212,8 +298,9 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
         for (const FoundRoot& other : found.roots) {
             if (!other.family || other.family->dimension != root.family->dimension) continue;
             if (++shown == most_of_families || ++ways > most_ways_to_members) return true;
-            if (leads_to(problem, found.is_angle, root, other, rates)) return true;
-            if (leads_to(problem, found.is_angle, other, root, rates)) return true;
+            const FamilyWays in{problem, borders, found.is_angle, rates};
+            if (leads_to(in, root, other) || leads_to(in, other, root)) return true;
+            if (leads_round(in, *other.family, other, root)) return true;
         }
         return false;
     };
@@ -230,10 +317,13 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
             if (!root.isolated) root.family = family_of(problem, found.is_angle, root, rates);
             root.isolated = !root.family;
             found.in_families += root.family ? 1 : 0;
-            if (root.isolated || !is_in_known_family(root, rates)) found.roots.push_back(root);
+            if (!root.isolated && is_in_known_family(root, rates)) continue;
+            if (root.family) find_ends({problem, borders, found.is_angle, rates}, *root.family, root);
+            found.roots.push_back(root);
         }
         if (!found.roots.empty() || problem.kept_speeds().rows() == 0) break;
     }
+    drop_ends({problem, borders, found.is_angle, found.rates}, found);
     if (found.roots.empty()) {
         found.rates = Rates::given;
         for (int k = 0; k < std::min(found.starts, 100); ++k) note_failure(found, problem, from(k), k == 0);

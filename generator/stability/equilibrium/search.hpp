@@ -11,7 +11,8 @@
 /// differ by whole turns are one. Starts of other coordinates lie within about ten times the scene's own lengths
 /// (its parameters of the same unit, the initial value), most of them within twice these, and so do those of
 /// first-order states that have a rate. The starts form a Halton sequence, which is the same in each run; the
-/// first is the scene's own state. If nothing is found, that is no proof that there is nothing.
+/// first is the scene's own state. Then there is a start in each piece of a table between knots (at most 500). If
+/// nothing is found, that is no proof that there is nothing.
 
 #include <functional>
 

@@ -7,7 +7,9 @@
 #include "alembert/base/error.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "base/language/say.hpp"
+#include "program/jump_watch.hpp"
 #include "program/lower/lower.hpp"
+#include "program/switches.hpp"
 
 namespace alembert {
 
@@ -32,6 +34,7 @@ public:
     }
 
     int size() const { return static_cast<int>(state_.q.size() + accelerations_.size()); }
+    const Program& program() const { return program_; }
 
     void operator()(double t, const double* y, double* rate) {
         const std::vector<double> value = at(t, y);
@@ -77,6 +80,12 @@ std::vector<Start> states_along(const Derived& d, const Start& start, const Alon
     if (wishes.sample) argument::need_positive("sample", *wishes.sample);
     check_smooth(d.mechanism);
     Motion motion(d, start);
+    if (jumps_along_motion(motion.program()))
+        throw ModelError(say(
+            "the first approximation is taken along smooth motions; here accelerations jump where the argument "
+            "of a 'sign' is zero or a table has a corner, and deviations with them; write a smooth function in "
+            "its place, or take interpolation = \"cubic\""));
+    JumpWatch watch(motion.program(), start.parameters);
     std::vector<double> initial = start.q;
     const State<double> first = state_of(start, d.mechanism, d.equations);
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
@@ -86,7 +95,8 @@ std::vector<Start> states_along(const Derived& d, const Start& start, const Alon
          .duration = wishes.duration.value_or(start.duration),
          .tolerance = wishes.tolerance.value_or(std::min(start.tolerance, strictest)),
          .sample = wishes.sample.value_or(start.sample),
-         .when_stiff = Method::radau});
+         .when_stiff = Method::radau,
+         .on_step = [&](double t, std::span<const double> y, std::span<const double>) { watch(t, y.data()); }});
     if (found.failure) throw_failure(*found.failure);
     std::vector<Start> states;
     const bool own_speeds = !d.equations.speeds_are_rates() && !start.speeds.empty();

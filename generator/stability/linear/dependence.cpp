@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "analysis/exact/cells.hpp"
+#include "stability/linear/borders.hpp"
 #include "stability/linear/dense_long.hpp"
 
 namespace alembert {
@@ -19,18 +19,9 @@ namespace {
 constexpr long double nothing = 1e-9L;  // relative to the largest element; smaller derivatives count as zero
 constexpr int random_states = 3;
 
-/// The variables on which it depends on what side of a sign, an absolute value, a larger or a smaller value nodes
-/// are.
-std::vector<Variable> deciding(Program program, const std::vector<int>& roots) {
-    const Cells cells(program, roots);
-    std::vector<Variable> result;
-    for (const int id : program.needed(cells.sides()))
-        if (program[id].op == Op::variable) result.push_back(program[id].variable);
-    return result;
-}
-
-/// Coordinates and time that decide on sides: beyond a border far from the state they count, though nothing near
-/// it changes with them (a dead zone, a switch at a time).
+/// Coordinates and time that decide on sides, and between which points of a table the state lies: beyond a border
+/// far from the state they count, though nothing near it changes with them (a dead zone, a switch at a time, a
+/// detent).
 void add_sides(const Residuals& r, const Split& split, Dependences& depends) {
     const auto p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size());
     std::vector<int> shared = r.mass;
@@ -38,7 +29,7 @@ void add_sides(const Residuals& r, const Split& split, Dependences& depends) {
     for (Index i = 0; i < p + nr; ++i) {
         std::vector<int> roots = i < p ? shared : std::vector<int>();
         roots.push_back(i < p ? r.forcing[split.u[i]] : r.rate[split.q[i - p]]);
-        for (const Variable& v : deciding(r.program, roots)) {
+        for (const Variable& v : Borders(r.program, roots).variables()) {
             if (v.kind == Variable::Kind::time) depends(i, nr + p) = true;
             const auto q = v.kind == Variable::Kind::coordinate
                                ? std::find(split.q.begin(), split.q.end(), v.index)
@@ -51,7 +42,7 @@ void add_sides(const Residuals& r, const Split& split, Dependences& depends) {
 }  // namespace
 
 bool switches_in_time(const Program& program, int node) {
-    const std::vector<Variable> all = deciding(program, {node});
+    const std::vector<Variable> all = Borders(program, std::vector{node}).variables();
     return std::any_of(all.begin(), all.end(), [](const Variable& v) { return v.kind == Variable::Kind::time; });
 }
 

@@ -8,7 +8,8 @@
 ///
 /// They are found at random states near the given one, not from the form of the equations. So a coordinate that
 /// cancels is cyclic too, also if constraints have been eliminated. What decides on a side of a sign, an absolute
-/// value, a larger or a smaller value counts by the form of the equations: the border may be far from the state.
+/// value, a larger or a smaller value, or is an argument of a table, counts by the form of the equations: the
+/// border may be far from the state.
 
 #include "stability/linear/tangent.hpp"
 
@@ -18,7 +19,7 @@ namespace alembert {
 /// border.
 using Dependences = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Whether a node has a sign, an absolute value, a larger or a smaller value that t decides.
+/// Whether a node has a sign, an absolute value, a larger or a smaller value that t decides, or a table of t.
 bool switches_in_time(const Program& program, int node);
 
 Dependences dependences(const Residuals& residuals, const Split& split, const Instant<long double>& at);

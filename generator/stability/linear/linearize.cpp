@@ -147,10 +147,23 @@ private:
                         i < p_ ? speed(i) : coordinate(i - p_)));
     }
 
+    /// The size of the unit in which `--at` takes a coordinate or a state.
+    double shown_size(const std::string& name) const {
+        const auto of = [](const Shown& shown) { return shown.unit.empty() ? 1 : shown.size; };
+        for (int i = 0; i < m_.size(); ++i)
+            if (m_.q[i].get_name() == name) return of(m_.shown_units[static_cast<std::size_t>(i)]);
+        for (const Mechanism::State& z : m_.states)
+            if (z.derivative[0].get_name() == name) return of(z.shown);
+        return 1;
+    }
+
     [[noreturn]] void refuse(const std::string& residual) const {
         std::string nearby;
-        for (const auto& [name, value] : steady_nearby(m_, e_, *start_))
-            nearby += fmt::format("{}--at {}={}", nearby.empty() ? "" : " ", name, value);
+        for (const auto& [name, value] : steady_nearby(m_, e_, *start_)) {
+            const double size = shown_size(name);
+            const std::string typed = size == 1 ? value : fmt::format("{}", std::stod(value) / size);
+            nearby += fmt::format("{}--at {}={}", nearby.empty() ? "" : " ", name, typed);
+        }
         throw ModelError(
             say("this state is no equilibrium and no steady motion: {}; expected zeros, or `stability --matrices` "
                 "with "

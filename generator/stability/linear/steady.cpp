@@ -12,6 +12,8 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/with_states.hpp"
+#include "program/known_knots.hpp"
+#include "program/rewriting.hpp"
 #include "stability/linear/dense_long.hpp"
 #include "stability/linear/kinks.hpp"
 #include "stability/linear/paths.hpp"
@@ -49,6 +51,34 @@ Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
     const LongLeastNorm step = least_norm(scaled, right, no_pivot);
     full_rank = step.rank == J.cols();
     return step.x;
+}
+
+/// Of the independent parameters, the numbers that the scene writes, or those that are given in their place.
+std::vector<Rational> exact_values(const Mechanism& m, const Instant<long double>& at) {
+    std::vector<Rational> result;
+    for (const Mechanism::Parameter& one : m.parameters) {
+        if (!one.independent) continue;
+        const auto value = static_cast<double>(at.parameters[result.size()]);
+        const GiNaC::numeric number = one.number();
+        result.push_back(number.is_rational() && number.to_double() == value
+                             ? cln::the<cln::cl_RA>(number.to_cl_N())
+                             : exact(value));
+    }
+    return result;
+}
+
+/// Whether a node is zero whatever the state is, with these parameters: also "eps*(1 - z)" with eps = 0.
+bool is_zero_with(const Program& program, int node, const std::vector<Rational>& parameters) {
+    Program one = program;
+    one.roots = {{Group::output, "value", node}};
+    Rewriting rewriting(one);
+    const Program made = rewriting.finish([&](int id) {
+        const Variable& v = one[id].variable;
+        return one[id].op == Op::variable && v.kind == Variable::Kind::parameter
+                   ? rewriting.made().number(parameters[static_cast<std::size_t>(v.index)])
+                   : rewriting.plain(id);
+    });
+    return made.is_zero(made.roots[0].node);
 }
 
 /// Leaves out the equations from `first` to `last` that say of one unknown that it stays as it is, and these
@@ -105,15 +135,15 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     const Tangent<long double> here = tangent(residuals_, split, start_, false, Undisturbed::steady);
     LongMatrix moves = LongMatrix::Zero(nr + p, p);
     // A state is no rate of a cyclic coordinate: it has to stay, where it has a rate; elsewhere it stays as given.
-    const Program& program = residuals_.program;
-    for (Index i = 0; i < p; ++i)
-        if (split.u[i] >= residuals_.s - residuals_.states && !program.is_zero(residuals_.forcing[split.u[i]]))
-            moves(nr + i, i) = 1;
-    for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
     std::vector<int> still;
-    for (Index i = 0; i < p; ++i)
-        if (split.u[i] >= residuals_.s - residuals_.states && program.is_zero(residuals_.forcing[split.u[i]]))
+    for (Index i = 0; i < p; ++i) {
+        if (split.u[i] < residuals_.s - residuals_.states) continue;
+        if (is_zero_with(residuals_.program, residuals_.forcing[split.u[i]], exact_values(m, start_)))
             still.push_back(split.u[i]);
+        else
+            moves(nr + i, i) = 1;
+    }
+    for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
     kept_states_ = LongMatrix::Zero(static_cast<Index>(still.size()), residuals_.s);
     for (std::size_t k = 0; k < still.size(); ++k) kept_states_(static_cast<Index>(k), still[k]) = 1;
     LongMatrix free = LongMatrix::Identity(p, p);
@@ -127,6 +157,10 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
         at_rest_.emplace(m, e, resting());
         at_rest_->inputs = residuals_.inputs;  // also those that act only in motion
     }
+}
+
+bool SteadyProblem::is_held(std::size_t place) const {
+    return kept_states_.cols() > 0 && !kept_states_.col(static_cast<Index>(place)).isZero(0);
 }
 
 std::vector<bool> SteadyProblem::resting() const {
@@ -186,8 +220,11 @@ void SteadyProblem::leave_out_roundings(SteadySystem& system) const {
         for (Index j = 0; j < system.by.cols(); ++j)
             work[i] = std::max(work[i], std::abs(system.by(i, j)) * scale_of(system, j) * along);
     }
-    for (Index i = 0; i < p; ++i)
-        if (work[i] < noise * work.maxCoeff()) system.by.row(i).setZero();
+    for (Index i = 0; i < p; ++i) {
+        const bool is_kept = is_held(static_cast<std::size_t>(system.split.u[i]));
+        if (is_kept) system.residual[i] = 0;  // also where decimals cancel but for rounding
+        if (is_kept || work[i] < noise * work.maxCoeff()) system.by.row(i).setZero();
+    }
 }
 
 SteadySystem SteadyProblem::resting_system(const Instant<long double>& at, const std::vector<long double>& given,

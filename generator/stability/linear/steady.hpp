@@ -43,6 +43,13 @@ struct SteadyRoot {
     bool isolated = true;  ///< false if the equations leave a direction free to first order
 };
 
+/// A first-order state of the scene that has a rate.
+struct MovingState {
+    std::size_t number;  ///< among those of the scene
+    std::size_t place;   ///< among the speeds
+    long double scale;   ///< the size of an ordinary change
+};
+
 class SteadyProblem {
 public:
     /// About the state of `start`. Mechanism and equations must outlive it. Throws ModelError where the equations
@@ -61,9 +68,14 @@ public:
     const std::vector<bool>& essential() const { return essential_; }
     /// Rows: combinations of all speeds that move cyclic coordinates only; their values are the given ones.
     const MatrixOf<long double>& kept_speeds() const { return kept_speeds_; }
+    /// Whether nothing moves this first-order state, whose place is among the speeds.
+    bool is_held(std::size_t place) const;
     /// The size of an ordinary change of each coordinate; 1 unless set.
     void set_scales(std::vector<long double> scales) { scales_ = std::move(scales); }
     const std::vector<long double>& scales() const { return scales_; }
+    /// None unless set.
+    void set_states(std::vector<MovingState> states) { states_ = std::move(states); }
+    const std::vector<MovingState>& states() const { return states_; }
 
     /// The cyclic ones of the speeds `given` are kept. `at` must obey the constraints. If `split` is null, the one
     /// that suits the state is used.
@@ -111,6 +123,7 @@ private:
     Instant<long double> start_;
     std::vector<bool> essential_, follows_q_, follows_u_;
     std::vector<long double> scales_;
+    std::vector<MovingState> states_;
     MatrixOf<long double> kept_speeds_;
     MatrixOf<long double> kept_states_;  ///< the rows of first-order states without a rate, which nothing moves
 };

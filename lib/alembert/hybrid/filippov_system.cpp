@@ -408,6 +408,10 @@ private:
                             now_.t, names));
         const FilippovMode before = sides_;
         sides_ = found[0].sides;
+        if (const auto why = obstacle_behind(before, open)) {
+            sides_ = before;
+            return fail(*why);
+        }
         for (const int k : open)
             if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
         for (const int k : as_declared(open))
@@ -417,6 +421,15 @@ private:
                         : before[k] == 0 ? ModeChange::Kind::leaving
                                          : ModeChange::Kind::crossing);
         return true;
+    }
+
+    std::optional<std::string> obstacle_behind(const FilippovMode& before, const std::vector<int>& open) const {
+        if (!system_.obstacle || result_.times.empty()) return std::nullopt;
+        const std::vector<double> rate = rate_here();
+        for (const int k : open)
+            if (before[k] * sides_[k] < 0)
+                if (auto why = system_.obstacle(k, now_.t, now_.state.data(), rate.data())) return why;
+        return std::nullopt;
     }
 
     /// Gives a pair that begins to slide its δ (filippov_system.hpp).

@@ -39,6 +39,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,6 +97,9 @@ struct FilippovSystem {
         {};
     /// The message if the k-th of the latter numbers is negative. Required together with `bounds`.
     std::function<std::string(int k, double t, const double* y)> refusal = {};
+    /// Why the motion cannot go on through the zero of g_k at this state, from the side where it is; nothing where
+    /// it can. May be empty.
+    std::function<std::optional<std::string>(int k, double t, const double* y, const double* rate)> obstacle = {};
     /// Bounds on the g_k, with the σ of the last call of `before_step`; may be empty.
     EventBounds bounds_of_functions = {};
     /// The events of the run that look at forces, whose values jump where a sign changes.

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// Corners in places and constraints, at which velocities would jump; jumps of rates that no sign shows; and what
+// motions of `sweep` are watched for. What is right follows from the closed forms written beside the scenes.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "json.hpp"
+#include "program.hpp"
+
+namespace commands_corners {
+
+using namespace alembert::test;
+
+namespace {
+
+/// A particle that starts at x = −1 with this speed and goes along a road.
+std::string on_road(const std::string& place, const std::string& interpolation,
+                    const std::string& gravity = "-9.81", double rate = 3) {
+    return temporary("road.toml", fmt::format(R"toml(gravity = [0, {}]
+[tables]
+h = {{ arguments = ["x"], outside = "line", interpolation = "{}", points = [[-5, 0], [0, 0], [1, 1], [2, 1], [3, 0], [9, 0]] }}
+[coordinates]
+x = {{ initial = -1, rate = {} }}
+[[particle]]
+name = "p"
+mass = 2
+position = ["x", "{}"]
+[simulation]
+duration = 0.9
+tolerance = 1e-11
+)toml",
+                                              gravity, interpolation, rate, place));
+}
+
+bool says(const Run& result, const std::string& text) {
+    return result.err.find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("corners: a motion that passes one in a place with speed ends there, with its time") {
+    // At x = 0 after 1/3 s: until there the road is level.
+    const Run road = run({"simulate", on_road("0.05*h(x)", "linear")});
+    CHECK(road.exit == 4);
+    CHECK_MESSAGE(says(road, "t = 0.33333333333333"), road.err);
+    CHECK(says(road, "corner of h(x)"));
+    CHECK(says(road, "cubic"));
+    const Run valley = run({"simulate", on_road("abs(x)", "linear")});
+    CHECK(valley.exit == 4);
+    CHECK_MESSAGE(says(valley, "sign(x)"), valley.err);
+    // Without a force nothing in the equations changes there.
+    const Run free = run({"simulate", on_road("abs(x)", "linear", "0")});
+    CHECK(free.exit == 4);
+    CHECK_MESSAGE(says(free, "sign(x)"), free.err);
+    for (const char* method : {"rk4", "dop853", "radau"})
+        CHECK(run({"simulate", on_road("0.05*h(x)", "linear"), "--method", method, "--step", "0.01"}).exit != 0);
+}
+
+TEST_CASE("corners: where slopes go on, or the motion does not come to one, it goes on") {
+    for (const char* interpolation : {"cubic", "pchip"})
+        CHECK(run({"simulate", on_road("0.05*h(x)", interpolation)}).exit == 0);
+    CHECK(run({"simulate", on_road("x*abs(x)", "linear")}).exit == 0);
+    CHECK(run({"simulate", on_road("0.05*h(x)", "linear"), "--duration", "0.3"}).exit == 0);
+    // A force may have corners and jump.
+    CHECK(run({"simulate", temporary("force.toml", R"toml([coordinates]
+x = { initial = -1, rate = 3 }
+[[particle]]
+name = "p"
+mass = 2
+position = ["x", 0]
+[energy]
+potential = "abs(x)"
+[simulation]
+duration = 0.9
+)toml")})
+              .exit == 0);
+}
+
+TEST_CASE("corners: of constraints and of kinetic energies they are the same") {
+    const auto constrained = [](const std::string& height) {
+        return temporary("wire.toml", fmt::format(R"toml(gravity = [0, -9.81]
+[coordinates]
+x = {{ initial = -1, rate = 3 }}
+y = {{ guess = 1, rate_guess = -3 }}
+[[particle]]
+name = "p"
+mass = 2
+position = ["x", "y"]
+[[constraint]]
+name = "wire"
+holonomic = "y = {}"
+[simulation]
+duration = 0.9
+)toml",
+                                                  height));
+    };
+    const Run corner = run({"simulate", constrained("abs(x)")});
+    CHECK(corner.exit == 4);
+    CHECK_MESSAGE(says(corner, "corner"), corner.err);
+    CHECK(run({"simulate", constrained("x*abs(x) + 2")}).exit == 0);
+    const Run energy = run({"simulate", temporary("inertia.toml", R"toml([coordinates]
+x = { initial = -1, rate = 3 }
+[energy]
+kinetic = "(3 + sign(x))*x'^2/2"
+[simulation]
+duration = 0.9
+)toml")});
+    CHECK(energy.exit == 4);
+    CHECK_MESSAGE(says(energy, "velocities would jump"), energy.err);
+}
+
+TEST_CASE("corners: motions of a sweep end at them, and what is emitted is told") {
+    const std::string scene = on_road("0.05*h(x)", "linear");
+    const Run swept = run({"sweep", scene, "--vary", "x'=-1:3:3", "--json"});
+    const Json found = Json::parse(swept.out);
+    CHECK_MESSAGE(found["failed"] == 1, swept.out);  // x' = −1 and 1 do not come to x = 0 in 0.9 s
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"emit", scene, "-o", temporary("road_code", "")},
+          {"emit", scene, "--fmu", temporary("road.fmu", "")}}) {
+        const Run written = run(words);
+        CHECK_MESSAGE(says(written, "corner of h(x)"), written.err);
+    }
+}
+
+TEST_CASE("sweep: masses that become negative and pulses of long tables are in the status of a motion") {
+    const Run burnt = run({"sweep", temporary("burnt.toml", R"toml(
+[parameters]
+c = 1
+[coordinates]
+h = 0
+[[particle]]
+name = "rocket"
+mass = "2 - t"
+position = [0, "h"]
+leaves = [0, "t*c"]
+[simulation]
+duration = 5
+)toml"),
+                           "--vary", "c=0:0:1", "--json"});
+    CHECK_MESSAGE(Json::parse(burnt.out)["failed"] == 1, burnt.out);
+    std::string points;  // 81 knots, and a pulse of area 1 between two of them
+    for (int k = 0; k <= 80; ++k) {
+        points += fmt::format("[{}, {}], ", k, k % 2 == 0 ? 1e-3 : 0);
+        if (k == 40) points += "[40.4, 0], [40.4001, 10000], [40.4002, 0], ";
+    }
+    const std::string pulse = temporary("pulse.toml", fmt::format(R"toml([coordinates]
+x = {{ initial = 1, rate = 10 }}
+[tables]
+f = {{ arguments = ["x"], outside = "hold", points = [{}] }}
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "f(x)"
+[simulation]
+duration = 6
+)toml",
+                                                                  points));
+    const Json motions = Json::parse(run({"sweep", pulse, "--vary", "x'=10:10:1", "--json"}).out);
+    const Json alone = Json::parse(run({"simulate", pulse, "--json"}).out);
+    const double right = std::sqrt(100 + 2 + 2 * (60.0 - 1) * 0.5e-3);
+    const bool is_right = std::abs(number(alone["final"], "rates", "x") - right) < 1e-3;
+    CHECK((is_right || alone["error_estimate"]["trustworthy"] == false));
+    if (!is_right) CHECK_MESSAGE(motions["failed"] == 1, motions.dump());
+}
+
+TEST_CASE("jumps: derivatives are refused where a motion passes the cut of atan2 or the pole in atan(1/x)") {
+    const auto asked = [](const std::string& force, double start, const std::vector<std::string>& words) {
+        const std::string scene = temporary("cut.toml", fmt::format(R"toml([parameters]
+a = 1
+T = 1
+[coordinates]
+x = {{ initial = {}, rate = 1 }}
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "{}"
+[simulation]
+duration = 2
+)toml",
+                                                                    start, force));
+        std::vector<std::string> all{words[0], scene};
+        all.insert(all.end(), words.begin() + 1, words.end());
+        const Run result = run(all);
+        INFO(result.err);
+        CHECK((result.exit == 0 || says(result, "jump")));
+        return result.exit != 0;
+    };
+    const std::vector<std::string> sensitivity{"simulate", "--sensitivity", "a"},
+        exponents{"stability", "--exponents", "1", "--duration", "2"},
+        along{"stability", "--matrices", "--along", "--duration", "2"};
+    for (const auto& ask : {sensitivity, exponents, along}) {
+        CAPTURE(ask[1]);
+        CHECK(asked("a*sign(x)", -1, ask));
+        CHECK(asked("a*atan2(x, -1)/10", -1, ask));
+        CHECK(asked("a*atan(1/x)/10", -1, ask));
+        CHECK(asked("a*tanh(1/x)/10", -1, ask));
+        CHECK_FALSE(asked("a*atan2(x, -1)/10", 1, ask));
+        CHECK_FALSE(asked("a*atan(1/x)/10", 1, ask));
+        CHECK_FALSE(asked("a*atan2(x, 1)/10", -1, ask));
+        CHECK_FALSE(asked("a*sin(atan2(x, -1))/10", -1, ask));
+        CHECK_FALSE(asked("a*atan(1/x^2)/10", -1, ask));
+    }
+    // The time of the jump is moved by T alone.
+    CHECK_FALSE(asked("a*sign(t - T)", -1, sensitivity));
+    CHECK(asked("a*sign(t - T)", -1, {"simulate", "--sensitivity", "a,T"}));
+    CHECK(asked("a*sign(t - T)", -1, {"simulate", "--sensitivity", "T"}));
+}
+
+// x'' = a sign(t − 1): x'(2) = x'(0), x(1) = x(0) + x'(0) − a/2, x(2) = x(1) + (x'(0) − a) + a/2.
+TEST_CASE("jumps: a jump at a time that is fixed leaves derivatives by other names as they are") {
+    const Json found = json_of({"simulate", temporary("timed.toml", R"toml([parameters]
+a = 1
+T = 1
+[coordinates]
+x = { initial = -1, rate = 1 }
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "a*sign(t - T)"
+[simulation]
+duration = 2
+)toml"),
+                                "--sensitivity", "a", "--json"});
+    CHECK(std::abs(found["sensitivity"]["values"][0][0].get<double>() + 1) < 1e-8);
+    CHECK(std::abs(found["sensitivity"]["values"][1][0].get<double>()) < 1e-8);
+}
+
+}  // namespace commands_corners
