@@ -343,6 +343,10 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
         line.reason = say("only equations are judged");
         return;
     }
+    if (lists_coordinates(lhs, rhs)) {
+        line.status = LineStatus::definition;
+        return;
+    }
     const bool displayed = statement_->displayed;
     if (states_general_law(lhs, letters_, displayed) || states_general_law(rhs, letters_, displayed)) {
         line.status = LineStatus::not_about_scene;

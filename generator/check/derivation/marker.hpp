@@ -283,6 +283,7 @@ private:
     std::optional<Components> components(const Math& math) const;
     std::optional<Components> matrix_times_vector(const Math& product) const;
     bool is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const;
+    bool lists_coordinates(const Math& lhs, const Math& rhs);
     bool bind_vector(const Math& letter, const Components& value);
 
     void take_in(std::size_t statement, std::size_t side);

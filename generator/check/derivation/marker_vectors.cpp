@@ -153,6 +153,23 @@ std::optional<Marker::Components> Marker::components(const Math& math) const {
     }
 }
 
+/// q = (ψ, ε): from then on a vector with these components.
+bool Marker::lists_coordinates(const Math& lhs, const Math& rhs) {
+    if (lhs.kind != Kind::letter || lhs.dots > 0 || rhs.kind != Kind::vector || letters_.name_of(lhs.letter))
+        return false;
+    const auto listed = components(rhs);
+    const bool are_coordinates =
+        listed && std::all_of(rhs.args.begin(), rhs.args.end(), [this](const MathPtr& part) {
+            const auto name =
+                part->kind == Kind::letter && part->dots == 0 ? letters_.name_of(part->letter) : std::nullopt;
+            return name && letters_.is_of_scene(*name) && letters_.moves(*name);
+        });
+    if (!are_coordinates) return false;
+    vectors_[lhs.letter] = *listed;
+    letters_.leave_to_author(lhs.letter);
+    return true;
+}
+
 /// Gives a vector letter the components of the point of the scene that it is, or of the one that its index names.
 bool Marker::bind_vector(const Math& letter, const Components& value) {
     MotionRows& rows = system_.rows();
