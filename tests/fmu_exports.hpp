@@ -5,6 +5,7 @@
 ///
 ///     const Unit unit = exported(scene, 2);
 ///     difference(one, simulated(scene, 3));
+///     check_unit(scene, 3);                                  // in both kinds and versions, as `simulate`
 
 #include <fmt/format.h>
 
@@ -31,8 +32,18 @@ inline Unit exported(const std::string& scene, int fmi) {
     return Unit(contents(file), Json::parse(made.out)["token"], fmi);
 }
 
-inline Json simulated(const std::string& scene, double end) {
-    return json_of({"simulate", scene, "--duration", fmt::format("{}", end), "--tolerance", "1e-12"})["final"];
+/// Start values by the names of the state: "x" and "der(x)".
+using StartValues = std::map<std::string, double>;
+
+inline Json simulated(const std::string& scene, double end, const StartValues& start = {}) {
+    std::vector<std::string> words{"simulate",    scene,  "--duration", fmt::format("{}", end),
+                                   "--tolerance", "1e-12"};
+    for (const auto& [name, value] : start) {
+        const bool is_rate = name.starts_with("der(");
+        words.emplace_back("--at");
+        words.push_back(fmt::format("{}={}", is_rate ? name.substr(4, name.size() - 5) + "'" : name, value));
+    }
+    return json_of(words)["final"];
 }
 
 /// The largest difference of coordinates and rates, relative to max(1, |x|).
@@ -44,6 +55,43 @@ inline double difference(const Instance& one, const Json& final) {
                           std::abs(one.get("der(" + name + ")") - v) / std::max(1.0, std::abs(v))});
     }
     return worst;
+}
+
+/// The same with the scene's states.
+inline double all_differences(const Instance& one, const Json& final) {
+    double worst = difference(one, final);
+    if (!final.contains("states")) return worst;
+    for (const auto& [name, value] : final["states"].items()) {
+        const double z = value;
+        worst = std::max(worst, std::abs(one.get(name) - z) / std::max(1.0, std::abs(z)));
+    }
+    return worst;
+}
+
+/// Until `end`, which may lie beyond the end of the motion: in co-simulation with large steps and in model
+/// exchange, by both versions of the interface.
+inline void check_unit(const std::string& scene, double end, double allowed = 1e-7,
+                       const StartValues& start = {}) {
+    const Json final = simulated(scene, end, start);
+    for (const int version : {2, 3}) {
+        CAPTURE(version);
+        const Unit unit = exported(scene, version);
+        for (const int steps : {1, 7}) {
+            CAPTURE(steps);
+            Instance one(unit, true, 1e-10);
+            for (const auto& [name, value] : start) one.set(name, value);
+            one.begin();
+            bool goes_on = true;
+            for (int k = 0; k < steps && goes_on; ++k) goes_on = one.step(end * k / steps, end / steps);
+            CHECK(goes_on == (final["time"].get<double>() > end - 1e-9));
+            CHECK(all_differences(one, final) < allowed);
+        }
+        Instance exchanged(unit, false);
+        for (const auto& [name, value] : start) exchanged.set(name, value);
+        exchanged.begin();
+        exchange(exchanged, end, 2000);
+        CHECK(all_differences(exchanged, final) < allowed);
+    }
 }
 
 }  // namespace alembert::test

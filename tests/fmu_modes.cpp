@@ -13,38 +13,6 @@ using namespace alembert::test;
 
 namespace {
 
-/// The largest difference of coordinates, rates and states, relative to max(1, |x|).
-double all_differences(const Instance& one, const Json& final) {
-    double worst = difference(one, final);
-    for (const auto& [name, value] : final["states"].items()) {
-        const double z = value;
-        worst = std::max(worst, std::abs(one.get(name) - z) / std::max(1.0, std::abs(z)));
-    }
-    return worst;
-}
-
-/// Until `end`, which may lie beyond the end of the motion.
-void check_unit(const std::string& scene, double end, double allowed = 1e-7) {
-    const Json final = simulated(scene, end);
-    for (const int version : {2, 3}) {
-        CAPTURE(version);
-        const Unit unit = exported(scene, version);
-        for (const int steps : {1, 7}) {
-            CAPTURE(steps);
-            Instance one(unit, true, 1e-10);
-            one.begin();
-            bool goes_on = true;
-            for (int k = 0; k < steps && goes_on; ++k) goes_on = one.step(end * k / steps, end / steps);
-            CHECK(goes_on == (final["time"].get<double>() > end - 1e-9));
-            CHECK(all_differences(one, final) < allowed);
-        }
-        Instance exchanged(unit, false);
-        exchanged.begin();
-        exchange(exchanged, end, 2000);
-        CHECK(all_differences(exchanged, final) < allowed);
-    }
-}
-
 std::string line(const std::string& events, const std::string& more = "") {
     return temporary("line.toml", fmt::format(R"toml(
 [coordinates]
