@@ -425,6 +425,14 @@ when = "x"
         const Run found = run({"equilibrium", scene(what)});
         CHECK(found.out.find("stable: undecided (event 'switch' is at its zero here") != std::string::npos);
     }
+    // An event of time needs no disturbance; one that a disturbance sets off at the same state is told first.
+    const std::string of_time =
+        edited(contents(scene("set = { k = -1 }")), {{"when = \"x\"", "when = \"sin(pi*t)\""}});
+    CHECK(run({"stability", temporary("of_time.toml", of_time)})
+              .err.find("event 'switch' happens at this time, t = 0") != std::string::npos);
+    const std::string both = of_time + "[[event]]\nname = \"push\"\nwhen = \"x\"\nimpulses = { x = 1 }\n";
+    CHECK(run({"stability", temporary("both.toml", both)}).err.find("event 'push' is at its zero here") !=
+          std::string::npos);
     // A counter changes nothing, and an event elsewhere is not set off; the mode is told.
     const Run counted = run({"stability", scene("set = { n = \"n + 1\" }")});
     CHECK(counted.exit == 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Motions that stand in a kink of the potential, whose sign depends on positions alone, against closed forms.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -164,6 +165,81 @@ nonholonomic = "z' = (1 + abs(x))*x'"
     CHECK(x > 0);
     CHECK(motion["energy_drift"].get<double>() < 1e-11);
     CHECK(std::abs(coordinate(motion, "z") - (0.2 + x + x * x / 2 + 1.5)) < 1e-10);
+}
+
+// Numbers of scipy 1.14, DOP853 with 3e-14 from zero to zero.
+TEST_CASE("kinks: what is zero as a whole stays so by every method, and leaves where it grows") {
+    const auto scene = [](const std::string& rate_of_N, const std::string& more) {
+        return temporary("kink_idle.toml", fmt::format(R"toml(
+[coordinates]
+x = {{ initial = 1, rate = 0 }}
+[states]
+N = {{ rate = "{}" }}
+w = {{ rate = "abs(N*x)" }}
+[energy]
+kinetic = "x'^2/2"
+[forces]
+x = "-x - abs(N*x')"
+[simulation]
+duration = 4
+{})toml",
+                                                       rate_of_N, more));
+    };
+    struct Case {
+        const char *rate_of_N, *more;
+        double x, rate, w;
+    };
+    const Case cases[] = {{"0", "[[event]]\nname = \"on\"\nwhen = \"t - 2\"\nset = { N = 1 }\n", -1.99228879839,
+                           0.243784352837, 2.76159432458},
+                          {"max(0, t - 1)", "", -6.33695857471, -15.6073134118, 11.9730234394},
+                          {"exp(-1/(t + 1e-9))", "", -3.204878136045, -0.7620153389306, 6.039433048155},
+                          {"-N", "", std::cos(4.0), -std::sin(4.0), 0}};
+    for (const Case& one : cases)
+        for (const char* const method : {"auto", "dopri5", "verner98", "radau", "bdf"}) {
+            CAPTURE(one.x);
+            CAPTURE(std::string(method));
+            const Json motion = json_of({"simulate", scene(one.rate_of_N, one.more), "--method", method});
+            CHECK(motion["completed"] == true);
+            CHECK(motion["error_estimate"]["trustworthy"] == true);
+            const double allowed = std::string(method) == "bdf" ? 3e-6 : 1e-7;
+            CHECK(std::abs(coordinate(motion, "x") - one.x) < allowed);
+            CHECK(std::abs(rate(motion, "x") - one.rate) < allowed);
+            CHECK(std::abs(motion["final"]["states"]["w"].get<double>() - one.w) < allowed);
+        }
+}
+
+// The clutch has no normal force until t = 1. Then N = 1 − exp(1 − t), and it brakes the mass with 0.3 N.
+TEST_CASE("kinks: friction without a normal force is followed by implicit methods, and holds when there is one") {
+    const std::string scene = temporary("kink_clutch.toml", R"toml(
+[coordinates]
+a = { initial = 0, rate = 3 }
+b = 0
+[states]
+on = {}
+N = { rate = "on - N" }
+lost = { rate = "abs(0.3*N*(a' - b'))" }
+[energy]
+kinetic = "(a'^2 + 2*b'^2)/2"
+[[friction]]
+name = "c"
+coefficient = 0.3
+slip = "a' - b'"
+normal = "N"
+[[event]]
+name = "close"
+when = "t - 1"
+set = { on = 1 }
+[simulation]
+duration = 3
+)toml");
+    const double force = 0.3 * (2 - (1 - std::exp(-2.0)));  // of the impulse of N over 2 s
+    for (const char* const method : {"auto", "dopri5", "radau", "bdf"}) {
+        CAPTURE(std::string(method));
+        const Json motion = json_of({"simulate", scene, "--method", method});
+        CHECK(motion["error_estimate"]["trustworthy"] == true);
+        CHECK(std::abs(rate(motion, "a") - (3 - force)) < 1e-6);
+        CHECK(std::abs(rate(motion, "b") - force / 2) < 1e-6);
+    }
 }
 
 }  // namespace commands_kinks

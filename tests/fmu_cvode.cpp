@@ -205,7 +205,7 @@ TEST_CASE("fmu: under CVODE's search for roots no event is lost, in either versi
         const Json wanted = simulated(scene, 9.9);
         for (const int version : {2, 3}) {
             CAPTURE(version);
-            const Unit unit = exported(scene, version);
+            const Unit unit = exported(scene, version, Compiled::as_shipped);
             for (const double interval : {10.0, 0.5, 0.0371}) {
                 CAPTURE(interval);
                 Instance instance(unit, false, 1e-9);
@@ -263,7 +263,7 @@ TEST_CASE("fmu: a ball that loses height bounces under any step of the importer"
     const Json wanted = simulated(scene, 3);
     for (const int version : {2, 3}) {
         CAPTURE(version);
-        const Unit unit = exported(scene, version);
+        const Unit unit = exported(scene, version, Compiled::as_shipped);
         for (const double interval : {3.0, 0.5, 0.0371}) {
             CAPTURE(interval);
             Instance one(unit, false, 1e-9);

@@ -13,38 +13,6 @@ using namespace alembert::test;
 
 namespace {
 
-/// The largest difference of coordinates, rates and states, relative to max(1, |x|).
-double all_differences(const Instance& one, const Json& final) {
-    double worst = difference(one, final);
-    for (const auto& [name, value] : final["states"].items()) {
-        const double z = value;
-        worst = std::max(worst, std::abs(one.get(name) - z) / std::max(1.0, std::abs(z)));
-    }
-    return worst;
-}
-
-/// Until `end`, which may lie beyond the end of the motion.
-void check_unit(const std::string& scene, double end, double allowed = 1e-7) {
-    const Json final = simulated(scene, end);
-    for (const int version : {2, 3}) {
-        CAPTURE(version);
-        const Unit unit = exported(scene, version);
-        for (const int steps : {1, 7}) {
-            CAPTURE(steps);
-            Instance one(unit, true, 1e-10);
-            one.begin();
-            bool goes_on = true;
-            for (int k = 0; k < steps && goes_on; ++k) goes_on = one.step(end * k / steps, end / steps);
-            CHECK(goes_on == (final["time"].get<double>() > end - 1e-9));
-            CHECK(all_differences(one, final) < allowed);
-        }
-        Instance exchanged(unit, false);
-        exchanged.begin();
-        exchange(exchanged, end, 2000);
-        CHECK(all_differences(exchanged, final) < allowed);
-    }
-}
-
 std::string line(const std::string& events, const std::string& more = "") {
     return temporary("line.toml", fmt::format(R"toml(
 [coordinates]
@@ -170,6 +138,163 @@ rates = { x = "1.1*x'", y = "1.1*y'" }
     Instance one(unit, true, 1e-10);
     one.begin();
     CHECK(one.step_status(0, 1) == failed);
+}
+
+/// The status of a step of co-simulation in which this unit ends, and of the event mode in model exchange.
+void check_failing(const std::string& scene, double end) {
+    CHECK(run({"simulate", scene, "--duration", fmt::format("{}", end)}).exit == 4);
+    for (const int version : {2, 3}) {
+        CAPTURE(version);
+        const Unit unit = exported(scene, version);
+        Instance one(unit, true, 1e-10);
+        one.begin();
+        CHECK(one.step_status(0, end) == failed);
+    }
+}
+
+TEST_CASE("fmu: what set states turn into the direction that counts happens at the same instant") {
+    const std::string turn =
+        "[[event]]\nname = \"a\"\nwhen = \"x\"\nset = { m = 1, n = 2 }\n"
+        "[[event]]\nname = \"b\"\nwhen = \"(m - 0.5)*x\"\ndirection = \"up\"\n";
+    for (const char* const act : {"set = { n = \"n + 1\" }\n", "rates = { x = \"x'/2\" }\n", "stop = true\n"})
+        check_unit(line(turn + act), 3);
+    // Each of them turns the value back to the zero of the other one.
+    check_failing(temporary("endless.toml", R"toml(
+[coordinates]
+x = 0.1
+[states]
+s = { initial = 1 }
+[energy]
+kinetic = "x'^2/2"
+[forces]
+x = "-s - 0.1*x'"
+[[event]]
+name = "down"
+when = "x + 0.1*x'"
+direction = "down"
+set = { s = -1 }
+[[event]]
+name = "up"
+when = "x + 0.1*x'"
+direction = "up"
+set = { s = 1 }
+)toml"),
+                  3);
+}
+
+TEST_CASE("fmu: events of one instant agree in all orders, or the simulation ends") {
+    const auto setting = [](const std::vector<std::string>& values) {
+        std::string events;
+        for (std::size_t k = 0; k < values.size(); ++k)
+            events += fmt::format("[[event]]\nname = \"e{0}\"\nwhen = \"{0}*x + x\"\nset = {{ n = \"{1}\" }}\n", k,
+                                  values[k]);
+        return line(events);
+    };
+    check_unit(setting({"n + 1", "n + 2", "n + 3", "n + 4", "n + 5", "n + 6"}), 2);
+    check_failing(setting({"n + 1", "2*n", "n + 1"}), 2);  // 2 n + 3, and the same in the opposite order
+    check_failing(setting({"n + 1", "n + 1", "2*n + 1", "n + 1", "n + 1", "n + 1", "n + 1"}), 2);
+}
+
+TEST_CASE("fmu: masses, moments and energies that events or rates make impossible end the simulation") {
+    const auto body = [](const std::string& mass, const std::string& state, const std::string& event) {
+        return temporary("body.toml", fmt::format(R"toml(
+[coordinates]
+x = {{ initial = -1, rate = 2 }}
+[states]
+z = {{ initial = 2{} }}
+[[particle]]
+name = "p"
+mass = "{}"
+leaves = [0, 0]
+position = ["x", 0]
+[[event]]
+name = "a"
+when = "x"
+{}
+)toml",
+                                                  state, mass, event));
+    };
+    check_unit(body("z", "", "set = { z = \"z - 1.5\" }"), 2);
+    check_failing(body("z", "", "set = { z = \"z - 3\" }"), 2);
+    check_failing(body("z", ", rate = -1.5", "record = [\"z\"]"), 2);
+    check_failing(line("[[event]]\nname = \"a\"\nwhen = \"x\"\nset = { n = -1 }\n", "[forces]\nx = \"sqrt(n)\"\n"),
+                  2);
+}
+
+TEST_CASE("fmu: events set states beside speeds that are fewer than the coordinates") {
+    check_unit(temporary("skate.toml", R"toml(
+[coordinates]
+x = 0
+y = 0
+phi = 0.5
+[speeds]
+v = { form = "x'*cos(phi) + y'*sin(phi)", initial = 1 }
+w = { form = "phi'", initial = 0.7 }
+[states]
+n = {}
+s = { rate = "v" }
+[[frame]]
+name = "B"
+rotate = [["z", "phi"]]
+[[body]]
+name = "b"
+frame = "B"
+mass = 2
+position = ["x", "y"]
+inertia = 0.3
+[[constraint]]
+name = "skate"
+nonholonomic = "y'*cos(phi) - x'*sin(phi)"
+[forces]
+phi = "-phi + 0.3*n"
+[[event]]
+name = "a"
+when = "phi - 0.2"
+set = { n = "n + 1 + x'/10 + s/20" }
+)toml"),
+               5);
+}
+
+TEST_CASE("fmu: events that look at forces happen where these jump, by signs, knots, set states and impulses") {
+    const auto wire = [](const std::string& curve, const std::string& force, const std::string& events) {
+        return temporary("wire.toml", fmt::format(R"toml(
+[tables]
+h = {{ arguments = ["x"], interpolation = "pchip", outside = "hold", points = [
+    [-5,0], [0,0], [0.3,-0.1], [0.6,-0.35], [1,-1], [5,-1]] }}
+[coordinates]
+x = {{ initial = 0, rate = 1 }}
+y = {{ initial = 0 }}
+[states]
+n = {{}}
+k = {{ initial = 1 }}
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "wire"
+holonomic = "{}"
+[forces]
+x = "-7.29*x"
+y = "{}"
+[[event]]
+name = "flip"
+when = "lambda_wire"
+set = {{ n = "n + 1" }}
+{}
+)toml",
+                                                  curve, force, events));
+    };
+    const std::string there = "[[event]]\nname = \"there\"\nwhen = \"x - 0.3\"\nset = { k = \"k + 1\" }\n";
+    for (const std::string& more : {std::string(), there})
+        check_unit(wire("y", "3*sign(x - 0.3) + 0.5", more), 6, 1e-6);
+    check_unit(wire("y = h(x)", "5*k - x'^2",
+                    "direction = \"up\"\n[[event]]\nname = \"pass\"\nwhen = \"x - 0.2\"\nset = { k = \"-k\" }\n"
+                    "impulses = { x = \"-0.1*x'\" }\n"),
+               3, 1e-6);
+    check_unit(wire("y = h(x)", "x'^2 - 2*k",
+                    "[[event]]\nname = \"pass\"\nwhen = \"x - 0.2\"\nimpulses = { x = \"-1.6*x'\" }\n"),
+               3, 1e-6);
 }
 
 // It comes back to the floor with 0.8 of the speed, while a counter and a controller go on.

@@ -3,16 +3,11 @@
 
 #include <algorithm>
 
+#include "model/event_actions.hpp"
+
 namespace alembert {
 
 namespace {
-
-std::vector<GiNaC::symbol> states_set(const Mechanism& m, const Mechanism::EventAction& event) {
-    std::vector<GiNaC::symbol> result;
-    for (const auto& one : event.set)
-        result.push_back(m.states[static_cast<std::size_t>(one.first)].derivative[0]);
-    return result;
-}
 
 /// Whether impulses act at the event: its own, or those of a constraint that moves with a state that it sets.
 bool has_impulse(const Mechanism& m, const Mechanism::EventAction& event) {

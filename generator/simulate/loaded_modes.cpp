@@ -8,7 +8,7 @@
 #include "alembert/ode/hamiltonian_system.hpp"
 #include "alembert/ode/taylor.hpp"
 #include "base/language/say.hpp"
-#include "model/multipliers.hpp"
+#include "model/event_actions.hpp"
 #include "simulate/consistent_mode.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/friction_of_multipliers.hpp"
@@ -40,13 +40,13 @@ std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t,
         t, f.name, f.multiplier->get_name(), numbers);
 }
 
-/// The events whose values hold multipliers.
-std::vector<int> events_of_forces(const Mechanism& m) {
-    const std::vector<GiNaC::symbol> multipliers = multipliers_of(m);
+/// The events of the scene whose values hold multipliers.
+std::vector<int> own_events_of_forces(const Mechanism& m) {
+    const std::vector<bool> of_forces = events_of_forces(m);
     std::vector<int> result;
     const std::size_t own = m.events.size() - m.unilateral.size();  // then come contacts, which end a phase
-    for (std::size_t k = 0; k < own && !multipliers.empty(); ++k)
-        if (m.z->depends(m.events[k].value, multipliers)) result.push_back(static_cast<int>(k));
+    for (std::size_t k = 0; k < own; ++k)
+        if (of_forces[k]) result.push_back(static_cast<int>(k));
     return result;
 }
 
@@ -222,7 +222,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
             on_side_begin(change, self->compiled.jumps->frictions[static_cast<std::size_t>(change.index)]);
     };
     if (mode.compiled.corners) system.obstacle = obstacle_of(mode);
-    system.events_of_forces = events_of_forces(mode.derived.mechanism);
+    system.events_of_forces = own_events_of_forces(mode.derived.mechanism);
     system.refusal = [self](int k, double t, const double* y) {
         const int friction = self->compiled.jumps->frictions[static_cast<std::size_t>(k)][0].friction;
         return refusal_of(self->derived.mechanism.frictions[static_cast<std::size_t>(friction)], self->program, t,

@@ -12,7 +12,7 @@
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
-#include "model/multipliers.hpp"
+#include "model/event_actions.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -28,31 +28,13 @@ bool agree(double a, double b) {
     return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
 }
 
-/// Whether the value of each event changes only where events set states: states without a rate are all that
-/// moves it.
-std::vector<bool> moved_by_modes_alone(const Mechanism& m) {
-    std::vector<GiNaC::symbol> moving{m.t};
-    for (const auto* list : {&m.q, &m.qdot, &m.qddot}) moving.insert(moving.end(), list->begin(), list->end());
-    for (const Mechanism::Input& input : m.inputs)
-        moving.insert(moving.end(), input.derivative.begin(), input.derivative.end());
-    for (const Mechanism::State& z : m.states)
-        if (!z.rate.is_zero()) moving.insert(moving.end(), z.derivative.begin(), z.derivative.end());
-    for (const GiNaC::symbol& multiplier : multipliers_of(m)) moving.push_back(multiplier);
-    std::vector<bool> result;
-    for (const Mechanism::Definition& event : m.events) result.push_back(!m.z->depends(event.value, moving));
-    return result;
-}
-
 }  // namespace
 
 KickView::KickView(const Mechanism& m, const Scene& scene)
-    : program_(begun(m)), holds_modes_alone_(moved_by_modes_alone(m)) {
-    const std::vector<GiNaC::symbol> multipliers = multipliers_of(m);
+    : program_(begun(m)), holds_multipliers_(events_of_forces(m)), holds_modes_alone_(events_of_modes(m)) {
     std::vector<ex> values;
-    for (const Mechanism::Definition& event : m.events) {
-        holds_multipliers_.push_back(m.z->depends(event.value, multipliers));
-        values.push_back(holds_multipliers_.back() ? ex(0) : event.value);
-    }
+    for (std::size_t k = 0; k < m.events.size(); ++k)
+        values.push_back(holds_multipliers_[k] ? ex(0) : m.events[k].value);
     std::vector<ex> wanted = values;
     const std::vector<ex> slopes = m.time_derivative(values);
     const std::vector<ex> bends = m.time_derivative(slopes);  // without q''', if `when` contains rates

@@ -21,16 +21,25 @@ const Body* body_of(const Scene& scene, const Origin& origin) {
 
 }  // namespace
 
-InertiaCheck::InertiaCheck(const Scene& scene, const Mechanism& mechanism) : scene_(scene), m_(mechanism) {
+std::vector<GiNaC::ex> masses_and_moments(const Mechanism& m) {
     std::vector<GiNaC::ex> wanted;
-    for (const MassElement& element : m_.masses) {
+    for (const MassElement& element : m.masses) {
         wanted.push_back(element.mass);
         if (!element.rotation) continue;
-        const std::array<GiNaC::ex, 6> I = central_inertia(element, *m_.z);
+        const std::array<GiNaC::ex, 6> I = central_inertia(element, *m.z);
         wanted.insert(wanted.end(), I.begin(), I.end());
         wanted.insert(wanted.end(), element.rotation->inertia.begin(), element.rotation->inertia.begin() + 3);
     }
-    nodes_ = lower_expressions(program_, m_, wanted);
+    return wanted;
+}
+
+bool has_own_moments(const Scene& scene, const MassElement& element) {
+    const Body* const body = body_of(scene, element.origin);
+    return element.rotation && body != nullptr && body->inertia;
+}
+
+InertiaCheck::InertiaCheck(const Scene& scene, const Mechanism& mechanism) : scene_(scene), m_(mechanism) {
+    nodes_ = lower_expressions(program_, m_, masses_and_moments(m_));
 }
 
 Place InertiaCheck::place_of(const Origin& origin) const {
@@ -56,10 +65,9 @@ std::vector<Diagnostic> InertiaCheck::findings(const State<double>& state) const
         for (double& entry : I) entry = value[nodes_[next++]];
         double given = 0;
         for (int k = 0; k < 3; ++k) given = std::max(given, std::abs(value[nodes_[next++]]));
-        const Body* const body = body_of(scene_, element.origin);
-        if (body != nullptr && body->inertia &&
+        if (has_own_moments(scene_, element) &&
             std::all_of(I.begin(), I.end(), [](double x) { return std::isfinite(x); }))
-            add_moments(found, *body, I, given);
+            add_moments(found, *body_of(scene_, element.origin), I, given);
     }
     return found;
 }

@@ -14,6 +14,13 @@
 
 namespace alembert {
 
+/// For each element of the mechanism its mass and, if it rotates, its six moments about the mass centre, xx yy zz
+/// xy yz zx, and the first three as the scene gives them.
+std::vector<GiNaC::ex> masses_and_moments(const Mechanism& mechanism);
+
+/// Whether the principal moments of an element are of a body of the scene, so that none of them may be negative.
+bool has_own_moments(const Scene& scene, const MassElement& element);
+
 /// Lowers the masses and moments once, for many sets of numbers. The arguments must outlive it.
 class InertiaCheck {
 public:
@@ -37,8 +44,7 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     Program program_;
-    std::vector<int>
-        nodes_;  ///< for each element, its mass and, if it rotates, its six moments and the three given ones
+    std::vector<int> nodes_;  ///< masses_and_moments
 };
 
 }  // namespace alembert

@@ -41,6 +41,7 @@ std::vector<NamedFunction> functions_of(const UnitModel& model) {
     std::vector<NamedFunction> result;
     if (model.contacts > 0) result.push_back(model.contact_function);
     if (!model.setters.empty()) result.push_back(model.set_function);
+    if (model.inertia_function.rows > 0) result.push_back(model.inertia_function);
     return result;
 }
 

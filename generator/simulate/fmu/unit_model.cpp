@@ -4,9 +4,10 @@
 #include <algorithm>
 
 #include "analysis/contact/contacts.hpp"
-#include "analysis/contact/kicks.hpp"
 #include "analysis/state/assemble.hpp"
+#include "analysis/state/inertia_check.hpp"
 #include "base/language/say.hpp"
+#include "model/event_actions.hpp"
 #include "model/formalism/needs.hpp"
 #include "model/formalism/with_states.hpp"
 #include "program/lower/lower.hpp"
@@ -72,9 +73,7 @@ void need_mass_matrix(const Program& program) {
 /// themselves.
 void refuse_moved_constraints(const Mechanism& m) {
     for (std::size_t k = 0; k < m.events.size(); ++k) {
-        std::vector<GiNaC::symbol> set;
-        for (const auto& one : m.event_actions[k].set)
-            set.push_back(m.states[static_cast<std::size_t>(one.first)].derivative[0]);
+        const std::vector<GiNaC::symbol> set = states_set(m, m.event_actions[k]);
         if (set.empty()) continue;
         const auto check = [&](const Mechanism::Constraint& c) {
             const auto depends = [&](const GiNaC::ex& e) { return m.z->depends(e, set); };
@@ -90,6 +89,17 @@ void refuse_moved_constraints(const Mechanism& m) {
         for (const Mechanism::Constraint& c : m.constraints) check(c);
         for (const Mechanism::Unilateral& u : m.unilateral) check(u.gap);
     }
+}
+
+/// The nodes of expressions in the scene's coordinates, rates and states, where the program has speeds of its own.
+std::vector<int> lowered_in_speeds(Program& program, const UnitModel& model, const std::vector<GiNaC::ex>& list) {
+    const Mechanism& m = model.mechanism;
+    const Equations e = with_states(model.equations, m);
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    for (int k = 0; k < e.size(); ++k) given.emplace_back(e.u[k], program.variable({Variable::Kind::rate, k}));
+    const std::vector<int> rates = program.nodes_of(Group::rate);
+    for (std::size_t i = 0; i < rates.size(); ++i) given.emplace_back(m.qdot[i], rates[i]);
+    return lower_expressions(program, in_terms_of(e, m), list, given);
 }
 
 /// Adds what events set, by the states of the scene and the rates.
@@ -112,7 +122,18 @@ void add_sets(Program& program, UnitModel& model) {
     model.set_function = {.name = "sets_at",
                           .about = "What events set, of the state before them.",
                           .rows = static_cast<int>(list.size())};
-    for (const int node : lower_expressions(program, in_terms_of(model.equations, m), list))
+    for (const int node : lowered_in_speeds(program, model, list))
+        program.roots.push_back({Group::function, "", node});
+}
+
+/// Adds the masses and moments of bodies.
+void add_inertias(Program& program, UnitModel& model) {
+    const std::vector<GiNaC::ex> list = masses_and_moments(model.mechanism);
+    if (list.empty()) return;
+    model.inertia_function = {.name = "inertias_at",
+                              .about = "Masses and moments of inertia, none of which may be negative.",
+                              .rows = static_cast<int>(list.size())};
+    for (const int node : lowered_in_speeds(program, model, list))
         program.roots.push_back({Group::function, "", node});
 }
 
@@ -167,9 +188,11 @@ void complete(UnitModel& model, Program program) {
     model.clocks = add_clocks(program, watched, set);
     model.program = with_tangent(program).canonical();
     const std::vector<int> values = model.program.nodes_of(Group::function);
-    const auto of_contacts_end = values.end() - static_cast<std::ptrdiff_t>(model.setters.size());
-    model.contact_function.nodes.assign(values.begin(), of_contacts_end);
-    model.set_function.nodes.assign(of_contacts_end, values.end());
+    const auto inertias = values.end() - model.inertia_function.rows,
+               setters = inertias - static_cast<std::ptrdiff_t>(model.setters.size());
+    model.contact_function.nodes.assign(values.begin(), setters);
+    model.set_function.nodes.assign(setters, inertias);
+    model.inertia_function.nodes.assign(inertias, values.end());
 }
 
 }  // namespace
@@ -192,7 +215,8 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     model.input_time = free.time;
     refuse_friction(model.mechanism);
     refuse_moved_constraints(model.mechanism);
-    if (model.mechanism.has_kicks()) model.of_modes = KickView(model.mechanism, model.scene).of_modes();
+    model.of_modes = events_of_modes(model.mechanism);
+    model.of_forces = events_of_forces(model.mechanism);
     const std::optional<FunctionProgram> contacts = free_contacts(model);
     if (!model.mechanism.impulses.empty())
         model.warn(
@@ -224,6 +248,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
         model.contact_function = absorbed(program, *contacts);
     }
     add_sets(program, model);
+    add_inertias(program, model);
     complete(model, std::move(program));
     model.start.parameters.resize(model.program.parameters.size(), 1);
     model.start.unknown.resize(direction_size(model.program), 0);

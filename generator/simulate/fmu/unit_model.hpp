@@ -34,8 +34,11 @@ struct UnitModel : Derived {
     /// the state.
     NamedFunction set_function = {};
     std::vector<std::pair<int, int>> setters = {};
-    std::vector<bool> of_modes = {};  ///< for each event, whether only events change its value
-    int signs = 0;                    ///< parameters that hold a sign, the last of the program
+    std::vector<bool> of_modes = {};   ///< for each event of the scene, whether only events change its value
+    std::vector<bool> of_forces = {};  ///< and whether it looks at forces of constraints, which jump
+    /// The masses and moments of bodies: inertias_at, with the numbers of masses_and_moments.
+    NamedFunction inertia_function = {};
+    int signs = 0;  ///< parameters that hold a sign, the last of the program
     std::vector<TimedZero> clocks = {};
     State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
     /// q, u as the scene has them, before the constraints have moved guesses; and which of them are guesses.

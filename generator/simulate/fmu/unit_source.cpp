@@ -8,6 +8,8 @@
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
+#include "alembert/base/inertia.hpp"
+#include "analysis/state/inertia_check.hpp"
 #include "codegen/emit/elementary.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/projection_text.hpp"
@@ -46,11 +48,13 @@ std::vector<std::string> actions_of(const UnitModel& model) {
     std::vector<std::string> rows;
     int kicks = 0;
     for (const Mechanism::EventAction& action : model.mechanism.event_actions) {
-        const bool sets = !action.set.empty() || !action.rates.empty(),
-                   is_of_modes = rows.size() < model.of_modes.size() && model.of_modes[rows.size()];
-        rows.push_back(fmt::format("{}, {}, {}, {}, {}, {}", action.direction, action.stop ? 1 : 0,
+        const bool sets = !action.set.empty() || !action.rates.empty();
+        const auto is = [k = rows.size()](const std::vector<bool>& list) {
+            return k < list.size() && list[k] ? 1 : 0;
+        };
+        rows.push_back(fmt::format("{}, {}, {}, {}, {}, {}, {}", action.direction, action.stop ? 1 : 0,
                                    action.impulse.empty() ? -1 : kicks++, sets ? 1 : 0, action.count.value_or(0),
-                                   is_of_modes ? 1 : 0));
+                                   is(model.of_modes), is(model.of_forces)));
     }
     return rows;
 }
@@ -64,10 +68,33 @@ std::vector<std::string> setters_of(const UnitModel& model) {
 
 void add_actions(kainjow::mustache::data& file, const UnitModel& model) {
     file.set("actions", list_of(actions_of(model)));
+    file.set("states", std::to_string(model.mechanism.states.size()));
     file.set("sets", std::to_string(model.setters.size()));
     file.set("has_sets", !model.setters.empty());
     file.set("setters", list_of(setters_of(model)));
     file.set("has_jumps", model.has_jumps());
+    file.set("has_forces",
+             std::find(model.of_forces.begin(), model.of_forces.end(), true) != model.of_forces.end());
+}
+
+/// The bodies in the order of inertias_at: of how many numbers, which of them are moments that must be possible,
+/// and their names.
+void add_bodies(kainjow::mustache::data& file, const UnitModel& model) {
+    std::vector<std::string> rows;
+    for (const MassElement& element : model.mechanism.masses) {
+        const bool is_planar = element.origin.kind == Origin::Kind::body &&
+                               model.scene.bodies[static_cast<std::size_t>(element.origin.index)].inertia &&
+                               model.scene.bodies[static_cast<std::size_t>(element.origin.index)].inertia->planar;
+        rows.push_back(fmt::format("{}, {}, \"{}\"", element.rotation ? 10 : 1,
+                                   !has_own_moments(model.scene, element) ? "no_moments"
+                                   : is_planar                            ? "one_moment"
+                                                                          : "moments",
+                                   label(element.origin)));
+    }
+    file.set("has_inertias", model.inertia_function.rows > 0);
+    file.set("inertias", std::to_string(model.inertia_function.rows));
+    file.set("bodies", std::to_string(rows.size()));
+    file.set("body_rows", list_of(rows));
 }
 
 /// The watched function of each clock, and in which way its argument tells a zero.
@@ -117,6 +144,23 @@ void add_quick_times(kainjow::mustache::data& file, const UnitModel& model) {
     file.set("quick_follow", fmt::format("{}", fmt::join(follow, "")));
 }
 
+void add_start(kainjow::mustache::data& file, const UnitModel& model) {
+    std::string initial;
+    for (const auto* part : {&model.start.q, &model.start.qdot})
+        for (const double x : *part) initial += shortest(x) + ", ";
+    file.set("initial", initial);
+    std::string given, guesses;
+    for (std::size_t i = 0; i < model.given.size(); ++i) {
+        given += shortest(model.given[i]) + ", ";
+        guesses += model.is_guess[i] ? "1, " : "0, ";
+    }
+    file.set("given", given);
+    file.set("guesses", guesses);
+    std::string holonomic;
+    for (const Mechanism::Constraint& c : model.mechanism.constraints) holonomic += c.position ? "1, " : "0, ";
+    file.set("holonomic", holonomic);
+}
+
 }  // namespace
 
 SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& variables, int version,
@@ -147,31 +191,20 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     file.set("table", list_of(rows_of(variables)));
     file.set("names", list_of(quoted_names(variables)));
     add_actions(file, model);
+    add_bodies(file, model);
     number("clocks", model.clocks.size());
     file.set("has_clocks", !model.clocks.empty());
     file.set("clock_rows", list_of(clocks_of(model)));
     file.set("shown_inputs", shown_inputs(model));
     add_quick_times(file, model);
-    std::string initial;
-    for (const auto* part : {&model.start.q, &model.start.qdot})
-        for (const double x : *part) initial += shortest(x) + ", ";
-    file.set("initial", initial);
-    std::string given, guesses;
-    for (std::size_t i = 0; i < model.given.size(); ++i) {
-        given += shortest(model.given[i]) + ", ";
-        guesses += model.is_guess[i] ? "1, " : "0, ";
-    }
-    file.set("given", given);
-    file.set("guesses", guesses);
-    std::string holonomic;
-    for (const Mechanism::Constraint& c : model.mechanism.constraints) holonomic += c.position ? "1, " : "0, ";
-    file.set("holonomic", holonomic);
+    add_start(file, model);
     file.set("own_speeds", !p.speeds.empty());
     file.set("start", shortest(model.start.t));
     file.set("tolerance", shortest(model.tolerance));
     file.set("finite", argument::finite);
     file.set("positive", argument::positive);
     file.set("nonnegative", argument::nonnegative);
+    file.set("rounded_moment", shortest(rounded_moment));
     const auto has = [&file](const char* name, const FunctionTask& task) {
         file.set(std::string("has_") + name, !task.results.empty());
     };
@@ -189,10 +222,11 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
                                            {.watches_energy = !model.moves_contacts,
                                             .contacts = contacts,
                                             .responses = std::max(contacts, kicks)}));
-    file.set("contacts_of_unit", kainjow::mustache::mustache{std::string(template_fmu_contacts)}.render(file));
     const auto rendered = [&file](std::string_view shape) {
         return kainjow::mustache::mustache{std::string(shape)}.render(file);
     };
+    file.set("contacts_of_unit", rendered(template_fmu_contacts));
+    file.set("instants_of_unit", rendered(template_fmu_instants));
     return {scene + "_fmu.c", rendered(template_fmu_model) + rendered(template_fmu_events) +
                                   rendered(template_fmu_steps) +
                                   rendered(version == 2 ? template_fmi2 : template_fmi3)};

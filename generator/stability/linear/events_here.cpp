@@ -6,6 +6,7 @@
 
 #include "analysis/contact/kicks.hpp"
 #include "base/language/say.hpp"
+#include "model/event_actions.hpp"
 
 namespace alembert {
 
@@ -30,9 +31,7 @@ bool hold(const Derived& d, const std::vector<GiNaC::symbol>& symbols) {
 
 bool changes_motion(const Derived& d, const Mechanism::EventAction& event) {
     if (!event.impulse.empty() || !event.rates.empty()) return true;
-    std::vector<GiNaC::symbol> set;
-    for (const auto& one : event.set)
-        set.push_back(d.mechanism.states[static_cast<std::size_t>(one.first)].derivative[0]);
+    const std::vector<GiNaC::symbol> set = states_set(d.mechanism, event);
     if (set.empty()) return false;
     // What another event makes of it may change the motion.
     const auto is_seen = [&](const ex& value) { return d.mechanism.z->depends(value, set); };
@@ -49,15 +48,26 @@ std::optional<std::string> disturbed_by_event(const Derived& d, const Start& sta
     const KickView view(m, d.scene);
     const State<double> here = start.state();
     const std::vector<PassedZero> zeros = view.passed(here, here);
+    std::vector<GiNaC::symbol> disturbed = m.q;
+    disturbed.insert(disturbed.end(), m.qdot.begin(), m.qdot.end());
+    for (const Mechanism::State& z : m.states)
+        disturbed.insert(disturbed.end(), z.derivative.begin(), z.derivative.end());
+    std::optional<std::string> at_this_time;
     for (std::size_t k = 0; k < zeros.size(); ++k) {
         if (view.of_multipliers()[k] || view.of_modes()[k] || !changes_motion(d, m.event_actions[k])) continue;
         if (!(std::abs(view.value(k, here)) <= as_typed * std::max(zeros[k].size, 1e-300))) continue;
-        return say(
-            "event '{0}' is at its zero here: a disturbance sets it off, and no first approximation describes the "
-            "motion after that",
-            m.events[k].name);
+        if (m.z->depends(m.events[k].value, disturbed))
+            return say(
+                "event '{0}' is at its zero here: a disturbance sets it off, and no first approximation describes "
+                "the motion after that",
+                m.events[k].name);
+        if (!at_this_time)
+            at_this_time = say(
+                "event '{0}' happens at this time, t = {1:.6g}, and changes the motion: no first approximation "
+                "describes the motion after that",
+                m.events[k].name, here.t);
     }
-    return {};
+    return at_this_time;
 }
 
 }  // namespace alembert

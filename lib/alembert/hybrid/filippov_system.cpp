@@ -23,8 +23,10 @@ namespace alembert {
 namespace {
 
 constexpr int most_undecided = 6;  // the most signs that may be undecided together: at most 3⁶ choices are tried
-constexpr double most_gathered = 1e3;     // times the error of a step, which a motion has gathered at most
-constexpr int most_in_one_place = 50;     // the most changes without an advance of time
+constexpr double most_gathered = 1e3;  // times the error of a step, which a motion has gathered at most
+constexpr int most_in_one_place = 50;  // the most changes without an advance of time
+constexpr double idle_share =
+    1e-3;  // of what errors of the tolerance make of a function, which is idle up to that
 constexpr double negative_normal = 1e-6;  // relative to the largest so far, beyond doubt
 
 class SwitchedRun {
@@ -53,6 +55,8 @@ public:
         if (system_.before_step)
             system_.before_step(at_->sigma());  // the first step of the piece is projected too
         watched_ = mode_guards(*at_, {now_.t, options_.start + options_.duration}, *sizes_);
+        for (ModeGuard& one : watched_)
+            if (one.what == ModeGuard::What::normal) one.offset += moment().uncertain_normal(*at_, one.index);
         const bool slides = !at_->sliding().empty();
         System system = abilities_;
         system.rhs = right_hand_side();
@@ -93,8 +97,13 @@ public:
     }
 
     bool next_mode(const Hit& hit) {
-        if (result_.ending != Ending::stopped_by_event || hit.stops) return false;
+        if (result_.ending != Ending::stopped_by_event) return false;
+        if (hit.stops) {
+            jump_at_end(hit);
+            return false;
+        }
         result_.ending = Ending::completed;
+        result_.last_zeros.clear();
         const std::vector<double> forces = events_here();
         if (options_.disturbed.seed == 0)
             return pass(watched_, hit.guards) && begin_piece() && !stops_by_jump(forces, hit);
@@ -124,7 +133,7 @@ private:
             (*sizes_)[k] = std::abs(g);
             if (sides_.is_pair(k)) {
                 if (k % 2 == 1 && !direct(k - 1, moment().still(k - 1))) open.push_back(k - 1);
-            } else if (g == 0)
+            } else if (moment().is_zero(k, g))
                 open.push_back(k);
             else
                 sides_[k] = g > 0 ? 1 : -1;
@@ -203,7 +212,6 @@ private:
     /// them stops the run.
     bool stops_by_jump(const std::vector<double>& before, const Hit& hit) {
         const std::vector<double> after = events_here();
-        result_.last_zeros.clear();
         for (const int k : system_.events_of_forces) {
             const auto i = static_cast<std::size_t>(k);
             const Event& event = events_.list[i];
@@ -218,9 +226,29 @@ private:
         return result_.ending == Ending::stopped_by_event;
     }
 
+    /// Signs that change at the instant at which an event of the run ends it: forces jump there too.
+    void jump_at_end(const Hit& hit) {
+        if (system_.events_of_forces.empty() || hit.guards.empty()) return;
+        const std::vector<double> forces = events_here();
+        const FilippovMode before = sides_;
+        if (pass(watched_, hit.guards)) {
+            stops_by_jump(forces, hit);
+        } else {  // what the event does may decide where the motion goes on
+            sides_ = before;
+            result_.failure.reset();
+        }
+        result_.ending = Ending::stopped_by_event;
+    }
+
+    /// Whether a function is kept at its zero.
+    bool slides() const {
+        for (std::size_t k = 0; k < sides_.size(); ++k)
+            if (sides_.slides_at_zero(k)) return true;
+        return false;
+    }
+
     Rhs right_hand_side() const {
-        if (std::find(sides_.of.begin(), sides_.of.end(), 0) == sides_.of.end())
-            return system_.smooth(system_.sigma(sides_));
+        if (!slides()) return system_.smooth(system_.sigma(sides_));
         const Rhs any = system_.smooth(system_.sigma(system_.start()));
         auto sides = std::make_shared<SlidingField>(system_, sides_, dimension());
         Rhs rhs = make_rhs(
@@ -267,7 +295,7 @@ private:
 
     /// While a function slides, its σ changes within a step, and bounds for one σ say nothing.
     EventBounds bounds_with(const std::vector<ModeGuard>& watched) const {
-        if (std::find(sides_.of.begin(), sides_.of.end(), 0) != sides_.of.end()) return {};
+        if (slides()) return {};
         const int scene = static_cast<int>(events_.list.size());
         const auto one = [scene, watched](int k) { return watched[static_cast<std::size_t>(k - scene)]; };
         return {.exist =
@@ -313,6 +341,10 @@ private:
                         tell(pair, ModeChange::Kind::leaving);
                     }
                 }
+            } else if (w.what == ModeGuard::What::idle) {
+                set_idle(w.index, 0);
+                sides_[w.index] = w.sign < 0 ? 1 : -1;
+                tell(w.index, ModeChange::Kind::leaving);
             } else if (w.what == ModeGuard::What::smoothing) {
                 direct(w.index, 0);
             } else if (w.what == ModeGuard::What::turn && direct(w.index, moment().stopped(w.index))) {
@@ -387,6 +419,7 @@ private:
             return fail(
                 fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
                             system_.names[open.front()], open.size() - 1, now_.t, most_undecided));
+        for (const int k : open) set_idle(k, 0);
         const std::vector<SideChoice> found = side_choices(system_, sides_, open, now_.t, now_.state);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
@@ -414,6 +447,8 @@ private:
         }
         for (const int k : open)
             if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
+        for (const int k : open)
+            if (sides_[k] == 0 && !sides_.is_pair(k) && moment().changes_nothing(k)) set_idle(k, moment().idle(k));
         for (const int k : as_declared(open))
             if (before[k] != sides_[k] &&
                 (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet
@@ -430,6 +465,11 @@ private:
             if (before[k] * sides_[k] < 0)
                 if (auto why = system_.obstacle(k, now_.t, now_.state.data(), rate.data())) return why;
         return std::nullopt;
+    }
+
+    void set_idle(int k, double up_to) {
+        sides_.idle_up_to.resize(sides_.size());
+        sides_.idle_up_to[k] = up_to;
     }
 
     /// Gives a pair that begins to slide its δ (filippov_system.hpp).

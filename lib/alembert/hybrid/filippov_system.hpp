@@ -22,6 +22,9 @@
 /// Dry friction with a static coefficient above the kinetic one sticks until |α| reaches their quotient r ≥ 1
 /// (`bounds`), and a contact with zero sliding velocity begins to slide only where sticking would need more.
 ///
+/// A function whose sign changes nothing where it is zero, and which stays there, is followed with σ = 0 until it
+/// leaves its zero by more than errors of the tolerance.
+///
 /// If several functions are zero at once, all choices of sides are tried, and the consistent one is taken.
 ///
 /// Dry friction in a plane acts against the direction of a sliding velocity v of two components, with a force in
@@ -67,7 +70,14 @@ struct FilippovMode {
         double smoothing = 0;          ///< δ
     };
     std::vector<Slide> slides = {};  ///< of the pairs
+    /// For functions that are zero without having to be kept there, because their signs change nothing where they
+    /// are zero, as that of N v in |N v| with N = 0: the size up to which they count as zero. 0, or nothing, for
+    /// all others.
+    std::vector<double> idle_up_to = {};
 
+    bool is_idle(std::size_t k) const { return k < idle_up_to.size() && idle_up_to[k] > 0 && of[k] == 0; }
+    /// Whether a function is kept at its zero by its σ.
+    bool slides_at_zero(std::size_t k) const { return of[k] == 0 && !is_idle(k); }
     int& operator[](std::size_t k) { return of[k]; }
     int operator[](std::size_t k) const { return of[k]; }
     std::size_t size() const { return of.size(); }

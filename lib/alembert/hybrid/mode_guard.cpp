@@ -26,6 +26,8 @@ double value_of(const ModeGuard& w, const SlidingField& at, const std::vector<do
         case ModeGuard::What::normal:
             return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
                    std::numeric_limits<double>::min();
+        case ModeGuard::What::idle:
+            return w.sign * at.value(w.index) + w.offset;
         default:
             return w.sign * at.value(w.index);
     }
@@ -45,6 +47,14 @@ std::vector<ModeGuard> mode_guards(const SlidingField& now, PieceSpan span, cons
             list.push_back({.what = ModeGuard::What::turn, .index = k});
             if (now.sides().slides[k / 2].smoothing > 0)
                 list.push_back({.what = ModeGuard::What::smoothing, .index = k});
+            continue;
+        }
+        if (now.sides().is_idle(k)) {
+            for (const double sign : {-1.0, 1.0})
+                list.push_back({.what = ModeGuard::What::idle,
+                                .index = k,
+                                .sign = sign,
+                                .offset = 2 * std::abs(now.value(k)) + now.sides().idle_up_to[k]});
             continue;
         }
         if (now.sides()[k] == 0) {

@@ -14,10 +14,10 @@ namespace alembert {
 /// How one g_k, α_k or normal force is watched in a piece; for pairs |α|, whether the direction has turned, and
 /// whether v has outgrown δ.
 struct ModeGuard {
-    enum class What { side, bound, normal, turn, smoothing } what = What::side;
+    enum class What { side, bound, idle, normal, turn, smoothing } what = What::side;
     int index;
     double sign = 1;    ///< the event's value is sign·(g or α) + offset, for α with r·offset
-    double offset = 0;  ///< for normal forces and α
+    double offset = 0;  ///< for normal forces, α, and g of idle functions
     HeldGuard held = {};
 };
 

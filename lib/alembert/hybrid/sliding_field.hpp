@@ -28,7 +28,7 @@ public:
           g_(system.numbers()),
           bounds_(2 * system.count(), 1.0) {
         for (int k = 0; k < system.count(); ++k)
-            if (sides_[k] == 0) sliding_.push_back(k);
+            if (sides_.slides_at_zero(k)) sliding_.push_back(k);
     }
 
     int count() const { return system_.count(); }

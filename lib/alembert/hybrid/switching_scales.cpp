@@ -15,6 +15,7 @@ constexpr double known_time = 1e-12;  // this part of the run
 constexpr double known_rate = 1e-13;  // a rate is known to this part of its terms, after constraints are solved
 constexpr double little = 1e-3;       // part of the run in which a load gives a first size of sliding velocities
 constexpr double different = 1e-9;    // rates at both sides, relative to them
+constexpr double small_share = 1e-3;  // of errors of the tolerance: far less than these
 // A function whose swings do not become less in so many changes, and are so much less than the largest, has come
 // to where rounding ends that.
 constexpr int most_rounds_at_rest = 8;
@@ -77,6 +78,44 @@ double SwitchingScales::stopped(int k) const {
            still(k);
 }
 
+bool SwitchingScales::is_zero(int k, double g) const {
+    if (g == 0) return true;
+    double slope = 0;
+    for (const int side : {-1, 1}) {
+        FilippovMode other = sides;
+        other[k] = side;
+        SlidingField here(system, other, dimension());
+        here.evaluate(t, state.data());
+        slope = std::max(slope, std::abs(here.slope(k)));
+    }
+    return std::abs(g) <= still(k) + known_time * std::abs(t) * slope;
+}
+
+bool SwitchingScales::changes_nothing(int k) const {
+    SlidingField here(system, sides, dimension());
+    here.evaluate(t, state.data());
+    here.find_bounds(t, state.data());
+    if (here.normal(k) != 1) return false;
+    std::vector<double> rates[2];
+    for (const int side : {0, 1}) {
+        FilippovMode other = sides;
+        for (int& one : other.of) one = one == 0 ? 1 : one;
+        other[k] = 2 * side - 1;
+        SlidingField at(system, other, dimension());
+        at.evaluate(t, state.data());
+        rates[side] = at.rate();
+    }
+    for (std::size_t i = 0; i < rates[0].size(); ++i)
+        if (!(std::abs(rates[1][i] - rates[0][i]) <= known_rate * std::abs(rates[0][i]))) return false;
+    return true;
+}
+
+double SwitchingScales::idle(int k) const {
+    std::vector<double> usual = state;  // N v is not moved by errors of N and v where both are zero
+    for (double& y : usual) y = std::max(1.0, std::abs(y));
+    return small_share * std::max(stopped(k), SwitchingScales{system, sides, t, usual, options, sizes}.stopped(k));
+}
+
 double SwitchingScales::speed(int pair) const {
     double largest = system.speed;
     for (int k = 0; sides.is_pair(k); ++k) largest = std::max(largest, sizes[k]);
@@ -100,10 +139,10 @@ double SwitchingScales::uncertain_normal(const SlidingField& now, int k) const {
         return std::abs(other.normal(k) - now.normal(k));
     };
     double sum = 0;
-    for (double& x : y) {
-        const double kept = x;
-        x += std::sqrt(tolerance::epsilon) * std::abs(kept);
-        if (x != kept) sum += known * std::abs(kept) / (x - kept) * change(t);
+    for (double& x : y) {  // of a component that is zero an implicit method leaves rounding
+        const double kept = x, off = std::max(known * std::abs(kept), small_share * options.tolerance);
+        x += std::max(off, std::sqrt(tolerance::epsilon) * std::abs(kept));
+        if (x != kept) sum += off / (x - kept) * change(t);
         x = kept;
     }
     const double longest = std::max(std::abs(t), options.duration),

@@ -32,6 +32,14 @@ struct SwitchingScales {
     /// Steps hold the error of a component y below it times max(1, |y|), and a body hands errors on from one of
     /// its feet to the others.
     double stopped(int k) const;
+    /// Whether the value g of a function is zero, up to what rounding leaves of it, and the instant of an event at
+    /// which an earlier run has ended.
+    bool is_zero(int k, double g) const;
+    /// Whether the rates at both signs of a function that is zero are the same. Friction with a normal force that
+    /// is zero holds as soon as there is one, so nothing is said of friction.
+    bool changes_nothing(int k) const;
+    /// The size up to which such a function is idle (FilippovMode).
+    double idle(int k) const;
     /// The size of sliding velocities: the largest so far. Before anything has slid, that to which the load would
     /// bring the pair without friction in a small part of the run.
     double speed(int pair) const;
