@@ -874,6 +874,16 @@ TEST_CASE("readings: sines and cosines by index, factors on a part of a sum, rat
     CHECK(statuses(geared, torque + " b_m\\dot q - n J_m\\ddot q$$").back() == 'M');
 }
 
+TEST_CASE("readings: a vector of the coordinates, times matrices") {
+    const std::string car =
+        "$z$ and $\\theta$ are small. With $\\mathbf x = (z, \\theta)^T$ $$\\begin{pmatrix} m & 0\\\\ 0 & "
+        "J\\end{pmatrix}\\ddot{\\mathbf x} + \\begin{pmatrix} k_f + k_r & a k_f - b k_r\\\\ a k_f - b "
+        "k_r & ";
+    const std::string end = "\\end{pmatrix}\\mathbf x = \\begin{pmatrix}0\\\\0\\end{pmatrix}$$";
+    CHECK(statuses(half_car, car + "a^2 k_f + b^2 k_r" + end) == "DR");
+    CHECK(statuses(half_car, car + "a^2 k_f - b^2 k_r" + end).back() == 'M');
+}
+
 TEST_CASE("readings: limits before a display, numbers of equations behind dots, uniform motion") {
     CHECK(statuses(half_car,
                    "For $b\\to\\infty$, $k_r\\to 0$ and the car becomes the rigid "
