@@ -895,4 +895,29 @@ TEST_CASE("readings: limits before a display, numbers of equations behind dots, 
     CHECK(statuses(half_car, "匀速运动 θ'' = 0： J θ' = 3\n", "page.txt").find('M') == std::string::npos);
 }
 
+TEST_CASE("readings: a force H of a reaction, K := m r² φ', values of states in numbers, a limit behind a slip") {
+    const std::string roller =
+        "gravity = [\"g*sin(alpha)\", \"-g*cos(alpha)\"]\n[parameters]\nm = 5\nr = 0.15\ng = 9.81\nalpha = "
+        "0.4\n[coordinates]\nx = 0\nphi = 0\n[[frame]]\nname = \"W\"\nrotate = [[\"z\", "
+        "\"-phi\"]]\n[[body]]\nname = \"walze\"\nmass = \"m\"\ninertia = \"m*r^2/2\"\nframe = \"W\"\nposition = "
+        "[\"x\", \"r\"]\n[[constraint]]\nname = \"rollen\"\nholonomic = \"x = r*phi\"\n";
+    const std::string laws =
+        "$$m\\ddot x = m g\\sin\\alpha - H, \\qquad \\tfrac12 m r^2\\ddot\\varphi = H r$$ "
+        "Die Reaktionskraft ist $$H = \\tfrac13 m g";
+    CHECK(statuses(roller, laws + "\\sin\\alpha$$") == "DRR");
+    CHECK(statuses(roller, laws + "\\cos\\alpha$$") == "DRM");
+    const std::string orbit =
+        "[parameters]\nm = 1\nk = 3\n[coordinates]\nr = 1\nphi = 0\n[energy]\nkinetic = "
+        "\"m*(r'^2 + r^2*phi'^2)/2\"\npotential = \"k*r\"\n";
+    CHECK(statuses(orbit, "> K := m*r^2*phi';\n> m*r'' - K^2/(m*r^3) + k = 0;\n", "work.txt") == "DR");
+    CHECK(statuses(orbit, "> T := m*r^2*phi'^2;\n", "work.txt") == "M");
+    CHECK(statuses(orbit,
+                   "On the circle of radius $r_0$ the rate is $\\omega_0 = \\sqrt{k/(m r_0)}$. With $m = 2$ kg, "
+                   "$k = 5$ N, $r_0 = 1$ m?")
+              .find('M') == std::string::npos);
+    CHECK(statuses(orbit,
+                   "$$T = m(\\dot r^2 + r^2\\dot\\phi^2)$$ For $m\\to\\infty$ the body stands still, $\\ddot r = "
+                   "0$, as it must be.") == "M-");
+}
+
 }  // namespace derivation_readings

@@ -28,6 +28,9 @@ namespace alembert {
 /// A number, perhaps with a unit, π or a fraction of such.
 bool is_number(const Math& side);
 
+/// 3, 3 kg; also 1 m, which may be a mass.
+bool may_be_number_with_unit(const Math& side, const Letters& letters);
+
 /// A number with a point stands in it.
 bool holds_decimals(const Math& math);
 

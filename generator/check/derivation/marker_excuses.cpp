@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
+#include "check/written/surroundings.hpp"
 #include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 #include "model/energy.hpp"
@@ -170,13 +171,25 @@ bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
 void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (line.status != LineStatus::mistake && line.status != LineStatus::follows) return;
     if (holds_with_slopes(line, lhs, rhs)) return;
+    constexpr std::size_t within_sentence = 160;
+    if (is_limit(written_, *statement_, within_sentence)) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("the words state a condition for it; lines are judged for all motions");
+        line.follows_from.reset();
+        notes_.back().claim = {};
+        return;
+    }
     const Sides sides = sides_of(lhs, rhs);
     if (follows_in_special_case(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
         const LineStatus before = line.status;
         settle_in_special_case(line);
         if (line.status != before) return;
     }
-    if (holds_from_start(kept_of(lhs, rhs))) {
+    const Lone constant = lone_letter(rhs);
+    const bool is_kept_from_start =
+        constant.letter != nullptr && is_word_for_constant(constant.letter->letter.base) &&
+        holds_from_start(system_.mechanism().time_derivative({truth_.value(sides.left.text)})[0]);
+    if (is_kept_from_start || holds_from_start(kept_of(lhs, rhs))) {
         line.status = LineStatus::right;
         line.reason = say("of the motion that starts there from rest");
         line.follows_from.reset();

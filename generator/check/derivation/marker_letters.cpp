@@ -172,7 +172,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
                     continue;  // "we get N = …" of the force that it determines
                 const bool is_explained =
                     !statement.displayed && !is_accelerated(value) && explains(statement.words);
-                static const std::set<std::string> forces{"N", "T", "S", "F", "R", "f", "Z", "P"};
+                static const std::set<std::string> forces{"N", "T", "S", "F", "R", "f", "Z", "P", "H"};
                 if (of_motion && !is_explained && (!is_constant(value) || forces.contains(letter.base)))
                     continue;  // a force, which the equation itself determines
                 try {

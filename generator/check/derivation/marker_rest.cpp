@@ -274,7 +274,8 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         notes_.back().is_sure = true;
         return true;
     }
-    const bool is_value = !statement_->displayed && (is_number(lhs) || is_number(rhs));  // "θ_0 = π/2"
+    const bool is_value =  // "θ_0 = π/2", "r_0 = 1 m"
+        !statement_->displayed && (is_number(lhs) || is_number(rhs) || may_be_number_with_unit(rhs, letters_));
     return is_said && !is_value && is_refuted_at_state(line, residual, there, is_of_motion);
 }
 

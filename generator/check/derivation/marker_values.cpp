@@ -71,6 +71,16 @@ Printed printed(const Math& side, const Letters& letters) {
     return (result.is_rounded() || unit.is_certain) && !unit.text.empty() ? result : Printed{};
 }
 
+}  // namespace
+
+bool may_be_number_with_unit(const Math& side, const Letters& letters) {
+    const bool is_product = side.kind == Kind::product && side.args[0]->kind == Kind::number;
+    return printed(side, letters).number != nullptr ||
+           (is_product && !unit_of_letters(side, letters, true).text.empty());
+}
+
+namespace {
+
 /// What one unit of the last digit is worth.
 double last_digit(const std::string& text) {
     const std::size_t power = text.find_first_of("eE"), point = text.find('.');

@@ -173,6 +173,11 @@ Letters with_authors_letters(Letters letters, const Written& written) {
                 const bool is_own_q = letter->base == "q" && !letter->index.empty();
                 if (is_known && (is_named_here || ((is_general || is_own_q) && !name)))
                     letters.leave_to_author(*letter);
+                const bool is_assigned = statement.relations[k] == Relation::identical && !turned;
+                if (is_assigned && is_any_energy(*letter) && name && !letters.is_of_scene(*name) && is_known &&
+                    std::any_of(all.begin(), all.end(), [](const auto& item) { return item.second > 0; }) &&
+                    !holds_square_of_rate(value))
+                    letters.leave_to_author(*letter);  // K := m r² φ'
                 if (is_any_energy(*letter) && name && !letters.is_of_scene(*name) && is_known &&
                     !has_motion(value, letters))
                     letters.leave_to_author(*letter);  // no energy is a constant in parameters
