@@ -132,6 +132,11 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
         settle_in_special_case(line);
         return true;
     }
+    if (!holds && is_word_for_constant(letter.letter.base) && holds_from_start(rate.residual)) {
+        line.status = LineStatus::right;
+        line.reason = say("of the motion that starts there from rest");
+        return true;
+    }
     if (!holds && !is_word_for_constant(letter.letter.base))
         return is_said_to_be_conserved(line, text, letter.letter, turned);
     std::string name =

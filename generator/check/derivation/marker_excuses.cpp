@@ -185,11 +185,7 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         settle_in_special_case(line);
         if (line.status != before) return;
     }
-    const Lone constant = lone_letter(rhs);
-    const bool is_kept_from_start =
-        constant.letter != nullptr && is_word_for_constant(constant.letter->letter.base) &&
-        holds_from_start(system_.mechanism().time_derivative({truth_.value(sides.left.text)})[0]);
-    if (is_kept_from_start || holds_from_start(kept_of(lhs, rhs))) {
+    if (holds_from_start(kept_of(lhs, rhs))) {
         line.status = LineStatus::right;
         line.reason = say("of the motion that starts there from rest");
         line.follows_from.reset();
