@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "json.hpp"
 #include "program.hpp"
@@ -110,6 +111,33 @@ duration = 0.9
 )toml")});
     CHECK(energy.exit == 4);
     CHECK_MESSAGE(says(energy, "velocities would jump"), energy.err);
+}
+
+TEST_CASE("corners: a place may have a table of a state and of an input") {
+    const auto scene = [](const char* height) {
+        return temporary("moved.toml", fmt::format(R"toml([tables]
+h = {{ arguments = ["x"], outside = "line", points = [[-5, 0], [0.5, 0], [1, 1], [9, 9]] }}
+[inputs]
+F = "sin(t)"
+[coordinates]
+x = {{ initial = -1, rate = 3 }}
+[states]
+z = {{ rate = "1 - z", initial = 0.2 }}
+[[particle]]
+name = "p"
+mass = 1
+position = ["x + z + F", "{}"]
+[simulation]
+duration = 0.9
+)toml",
+                                                   height));
+    };
+    // z = 1 − 0.8 exp(−t) is 1/2 at t = log 1.6.
+    const Run passed = run({"simulate", scene("h(z)")});
+    CHECK(passed.exit == 4);
+    CHECK_MESSAGE(says(passed, fmt::format("t = {:.9}", std::log(1.6))), passed.err);
+    CHECK(run({"simulate", scene("h(z)"), "--duration", "0.4"}).exit == 0);
+    CHECK(run({"simulate", scene("h(F - 1)")}).exit == 0);
 }
 
 TEST_CASE("corners: motions of a sweep end at them, and what is emitted is told") {
@@ -232,6 +260,123 @@ duration = 2
                                 "--sensitivity", "a", "--json"});
     CHECK(std::abs(found["sensitivity"]["values"][0][0].get<double>() + 1) < 1e-8);
     CHECK(std::abs(found["sensitivity"]["values"][1][0].get<double>()) < 1e-8);
+}
+
+namespace {
+
+/// A ball that an event throws back, with a state that counts and one that decays, and a guard that moves with
+/// all.
+std::string thrown(const std::map<std::string, double>& v) {
+    return temporary("thrown.toml", fmt::format(R"toml(gravity = [0, "-g"]
+[parameters]
+g = {}
+e = {}
+w = {}
+[coordinates]
+x = {{ initial = 0, rate = {} }}
+y = {{ initial = {}, rate = 0 }}
+[states]
+z = {{ rate = "-z/2 + y*w", initial = 0.4 }}
+n = {{}}
+[[particle]]
+name = "ball"
+mass = 1
+position = ["x", "y"]
+[forces]
+x = "-0.3*x' + n*z"
+y = "-0.1*y'*abs(y') + 0.2*n*x'"
+[[event]]
+name = "floor"
+when = "y - w*x^2 - 0.1*z"
+direction = "down"
+set = {{ n = "n + 1", z = "z/2 + w*x + y'^2/50" }}
+rates = {{ y = "-e*y' + 0.1*z", x = "0.9*x' + w*t" }}
+[simulation]
+duration = 1.6
+tolerance = 1e-13
+)toml",
+                                                v.at("g"), v.at("e"), v.at("w"), v.at("x'"), v.at("y")));
+}
+
+std::vector<double> end_of(const std::map<std::string, double>& v) {
+    const Json found = json_of({"simulate", thrown(v), "--no-estimate", "--json"});
+    CHECK(found["events"].size() == 3);
+    const Json& end = found["final"];
+    return {number(end, "coordinates", "x"), number(end, "coordinates", "y"), number(end, "rates", "x"),
+            number(end, "rates", "y"),       number(end, "states", "z"),      number(end, "states", "n")};
+}
+
+}  // namespace
+
+TEST_CASE("sensitivity: derivatives through events that set states and rates are those of differences") {
+    const std::map<std::string, double> v{{"g", 9.81}, {"e", 0.7}, {"w", 0.05}, {"x'", 1.1}, {"y", 1.3}};
+    std::string names;
+    for (const auto& [name, value] : v) names += (names.empty() ? "" : ",") + name;
+    const Json found = json_of({"simulate", thrown(v), "--sensitivity", names, "--json"})["sensitivity"];
+    const std::vector<std::string> of = found["of"], by = found["by"];
+    CHECK(of == std::vector<std::string>{"x", "y", "x'", "y'", "z", "n"});
+    for (std::size_t c = 0; c < by.size(); ++c) {
+        CAPTURE(by[c]);
+        std::map<std::string, double> more = v, less = v;
+        const double step = 1e-5;
+        more[by[c]] += step;
+        less[by[c]] -= step;
+        const std::vector<double> a = end_of(more), b = end_of(less);
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            CAPTURE(of[i]);
+            const double slope = (a[i] - b[i]) / (2 * step), told = found["values"][i][c];
+            CHECK(std::abs(told - slope) < 2e-7 * std::max(1.0, std::abs(slope)));
+        }
+    }
+}
+
+// A ball that falls from h and is thrown back with e times its speed: with T for the time of the fall, √(2 h/g),
+// y(t) = e g T (t − T) − g (t − T)²/2.
+TEST_CASE("sensitivity: of a bounce the derivatives are those of the closed form; grazing and ends are refused") {
+    const auto scene = [](double duration, const std::string& when, const std::string& more = "") {
+        return temporary("bounce.toml", fmt::format(R"toml(gravity = [0, "-g"]
+[parameters]
+g = 9.81
+e = 0.8
+[coordinates]
+y = {{ initial = 1.2 }}
+[[particle]]
+name = "ball"
+mass = 1
+position = [0, "y"]
+[[event]]
+name = "floor"
+when = "{}"
+rates = {{ y = "-e*y'" }}
+{}
+[simulation]
+duration = {}
+tolerance = 1e-12
+)toml",
+                                                    when, more, duration));
+    };
+    const double g = 9.81, e = 0.8, h = 1.2, fall = std::sqrt(2 * h / g), end = 0.8, d = end - fall;
+    const Json found = json_of({"simulate", scene(end, "y"), "--sensitivity", "y,e,g", "--json"})["sensitivity"];
+    const auto value = [&](std::size_t i, std::size_t c) { return found["values"][i][c].get<double>(); };
+    const double by_h = fall / (2 * h), by_g = -fall / (2 * g);  // of the time of the fall
+    const auto place = [&](double later) { return e * g * (d - fall) * later + g * d * later; };
+    CHECK(std::abs(value(0, 0) - place(by_h)) < 1e-9);
+    CHECK(std::abs(value(0, 1) - g * fall * d) < 1e-9);
+    CHECK(std::abs(value(0, 2) - (e * fall * d - d * d / 2 + place(by_g))) < 1e-9);
+    CHECK(std::abs(value(1, 0) - (e * g + g) * by_h) < 1e-9);
+    CHECK(std::abs(value(1, 1) - g * fall) < 1e-9);
+    CHECK(std::abs(value(1, 2) - (e * fall - d + (e * g + g) * by_g)) < 1e-9);
+
+    const auto refused = [](const std::string& file, const std::string& why) {
+        const Run result = run({"simulate", file, "--sensitivity", "e"});
+        CHECK(result.exit != 0);
+        CHECK_MESSAGE(says(result, why), result.err);
+    };
+    const std::string second = "[[event]]\nname = \"other\"\nwhen = \"2*y\"\nrates = { y = \"-e*y'\" }\n";
+    refused(scene(end, "y", second), "one instant");
+    refused(scene(end, "y", "[[unilateral]]\nname = \"ground\"\ngap = \"y + 1\"\n"), "contacts");
+    const std::string pushed = "[[event]]\nname = \"other\"\nwhen = \"y - 1\"\nimpulses = { y = 1 }\n";
+    refused(scene(end, "y", pushed), "impulse");
 }
 
 }  // namespace commands_corners

@@ -85,6 +85,10 @@ std::shared_ptr<const Corners> Corners::of(const Mechanism& mechanism) {
     const std::vector<GiNaC::ex> velocities = velocities_of(own);
     if (!may_have_corners(own, velocities)) return nullptr;
     const std::vector<int> nodes = lower_expressions(lowered, own, velocities);
+    for (int i = 0; i < own.size() && !own.states.empty(); ++i)
+        lowered.speeds.push_back({.name = own.q[i].get_name() + "'", .unit = "", .rate_of = i});
+    for (const Mechanism::State& z : own.states)
+        lowered.speeds.push_back({.name = z.derivative[0].get_name(), .unit = z.unit});
     for (std::size_t k = 0; k < nodes.size(); ++k)
         lowered.roots.push_back({Group::output, fmt::format("velocity {}", k + 1), nodes[k]});
     std::vector<QuotientSign> signs;

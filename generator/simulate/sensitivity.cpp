@@ -28,11 +28,8 @@ void check_smooth_motion(const Mechanism& m) {
                 "leave "
                 "it out",
                 m.redundant[0].name));
-    if (m.has_modes())
-        throw ModelError(
-            say("--sensitivity: the scene has contacts, dry friction or events that change the motion, at which "
-                "derivatives "
-                "jump; leave these out"));
+    if (const std::string why = Saltation::obstacle(m); !why.empty())
+        throw ModelError(say("--sensitivity: {}; leave these out", why));
 }
 
 void check_jumps(const Program& program, const std::vector<int>& parameters) {
@@ -101,6 +98,7 @@ Sensitivities::Sensitivities(const Derived& d, const Program& program, const Sta
     }
     check_jumps(program, parameters_);
     columns_ = start_derivatives(m, d.equations, start, found);
+    if (m.has_kicks()) saltation_.emplace(m, parameters_);
 }
 
 void Sensitivities::find_wanted(const Program& program, const std::vector<std::string>& of) {
@@ -167,7 +165,7 @@ Sensitivities::AtEnd Sensitivities::at_end(double t, std::span<const double> sta
 }
 
 Sensitivity Sensitivities::at(double end, const SensitivityOptions& options) const {
-    if (2 * of_.size() <= names_.size() && end > start_.t && options.sample == 0)
+    if (2 * of_.size() <= names_.size() && end > start_.t && options.sample == 0 && !saltation_)
         if (auto found = backwards(end, options)) return *found;
     return forwards(end, options);
 }
@@ -250,13 +248,18 @@ Sensitivity Sensitivities::forwards(double end, const SensitivityOptions& option
     });
     std::vector<double> y = state_;
     for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
-    const Trajectory motion = integrated(watched(both, end), y,
-                                         {.start = start_.t,
-                                          .duration = duration,
-                                          .tolerance = options.tolerance,
-                                          .sample = options.sample > 0 ? options.sample : duration,
-                                          .budget = options.budget,
-                                          .on_step = for_jumps()});
+    const System system = watched(both, end);
+    const auto from = [&](double begin, double until, double sample) {
+        return integrated(system, y,
+                          {.start = begin,
+                           .duration = until - begin,
+                           .tolerance = options.tolerance,
+                           .sample = sample > 0 ? sample : until - begin,
+                           .budget = options.budget,
+                           .on_step = for_jumps()});
+    };
+    if (saltation_) return through_events(end, options, from, y);
+    const Trajectory motion = from(start_.t, end, options.sample);
     Sensitivity result{.time = end,
                        .of = of_,
                        .by = names_,
@@ -267,6 +270,52 @@ Sensitivity Sensitivities::forwards(double end, const SensitivityOptions& option
         result.times.push_back(motion.times[k]);
         result.rows.push_back(values_at(motion.times[k], motion.state(k)));
     }
+    return result;
+}
+
+/// The motion is integrated from one event to the next; those of the run say when.
+Sensitivity Sensitivities::through_events(double end, const SensitivityOptions& options, const Piece& from,
+                                          std::vector<double>& y) const {
+    constexpr double at_once = 1e-10;  // of the run
+    const double same = at_once * std::max({1.0, std::abs(start_.t), std::abs(end)});
+    if (options.sample > 0)
+        throw ModelError(
+            say("--sensitivity: rows of derivatives are not made where events change the motion; leave "
+                "sensitivity_rows out"));
+    const Variation<double> variation(program_, start_.parameters, parameters_);
+    Sensitivity result{.time = end, .of = of_, .by = names_, .values = {}};
+    double last = start_.t;
+    const auto follow = [&](double until) {
+        if (!(until > last)) return;
+        const Trajectory piece = from(last, until, 0);
+        y.assign(piece.final_state().begin(), piece.final_state().end());
+        result.steps += piece.statistics.steps;
+        result.evaluations += piece.statistics.evaluations;
+    };
+    std::string name;
+    for (const EventRecord& event : options.events) {
+        if (!saltation_->acts(event.index)) continue;
+        if (!name.empty() && event.time - last <= same)
+            throw IntegrationError(say("--sensitivity: events '{}' and '{}' happen at one instant, t = {:.6g}, "
+                                       "where derivatives to both "
+                                       "sides differ",
+                                       name, event.name, event.time),
+                                   event.time, y);
+        if (end - event.time <= same)
+            throw IntegrationError(
+                say("--sensitivity: event '{}' happens at the end, t = {:.6g}, where derivatives "
+                    "jump; end the motion before or after it",
+                    event.name, event.time),
+                event.time, y);
+        follow(event.time);
+        saltation_->pass(
+            {event.index, event.time, start_.parameters},
+            [&](const std::vector<double>& x) { return variation.rate_at(event.time, x); }, y);
+        last = event.time;
+        name = event.name;
+    }
+    follow(end);
+    result.values = values_at(end, y);
     return result;
 }
 

@@ -126,6 +126,7 @@ public:
                 run_.motion.final_time(), {.tolerance = options_.tolerance,
                                            .budget = wishes_.budget,
                                            .sample = wishes_.sensitivity_rows ? sample_interval(options_) : 0,
+                                           .events = run_.motion.events,
                                            .progress = wishes_.progress});
         describe(modes, free);
     }

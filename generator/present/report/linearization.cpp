@@ -7,6 +7,7 @@
 #include "base/language/say.hpp"
 #include "present/report/modes.hpp"
 #include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -240,10 +241,26 @@ Json as_json(const LinearizedScene& d) {
     return result;
 }
 
+namespace {
+
+/// The unit in which the scene gives a coordinate or a state.
+ShownUnit unit_of(const Mechanism& m, const std::string& name) {
+    for (int i = 0; i < m.size(); ++i)
+        if (m.q[i].get_name() == name) return ShownUnit(m.shown_units[static_cast<std::size_t>(i)]);
+    for (const Mechanism::State& z : m.states)
+        if (z.derivative[0].get_name() == name) return ShownUnit(z.shown);
+    return ShownUnit(Shown{});
+}
+
+}  // namespace
+
 std::string words_of_reached(const LinearizedScene& d) {
     std::string state;
-    for (const auto& [name, value] : d.reached)
-        state += fmt::format("{}{} = {:.6g}", state.empty() ? "" : ", ", name, std::stod(value));
+    for (const auto& [name, value] : d.reached) {
+        const ShownUnit unit = unit_of(d.mechanism, name);
+        state += fmt::format("{}{} = {:.6g}", state.empty() ? "" : ", ", unit.label(name),
+                             unit.value(std::stod(value)));
+    }
     return state.empty()
                ? state
                : say("The start is no equilibrium and no steady motion; this is about the one that Newton's "
