@@ -21,8 +21,8 @@ using namespace alembert::test;
 namespace {
 
 const Unit& cart(int version) {
-    static const Unit two = exported(source_path("scenes/textbook/cart_pole.toml"), 2),
-                      three = exported(source_path("scenes/textbook/cart_pole.toml"), 3);
+    static const Unit two = exported(source_path("scenes/textbook/cart_pole.toml"), 2, Compiled::as_shipped),
+                      three = exported(source_path("scenes/textbook/cart_pole.toml"), 3, Compiled::as_shipped);
     return version == 2 ? two : three;
 }
 
@@ -150,7 +150,7 @@ position = ["s + sin(phi)", "-cos(phi)"]
 speed = "dot(vel(bob), vel(bob))"
 )toml");
     const Json final = simulated(scene, 1);
-    const Unit unit = exported(scene, 2);
+    const Unit unit = exported(scene, 2, Compiled::as_shipped);
     // The equation has s'', the energy s'; each input is set to what the scene has.
     Instance given(unit, false);
     given.begin();
@@ -192,7 +192,7 @@ speed = "dot(vel(bob), vel(bob))"
 TEST_CASE("fmu: constraints stay satisfied, and the same scene gives the same bytes") {
     const std::string scene = source_path("scenes/textbook/slider_crank.toml"), again = file_name("again.fmu");
     const Json final = simulated(scene, 1);
-    const Unit unit = exported(scene, 2);
+    const Unit unit = exported(scene, 2, Compiled::as_shipped);
     check_rules(unit.files.at("modelDescription.xml"), 2);
     Instance one(unit, true, 1e-12), exchanged(unit, false, 1e-12);
     one.begin();
@@ -253,7 +253,7 @@ holonomic = "x2^2 + y2^2 = l2^2"
 duration = 1
 )toml");
     for (const int version : {2, 3}) {
-        const Unit unit = exported(rod, version);
+        const Unit unit = exported(rod, version, Compiled::as_shipped);
         check_rules(unit.files.at("modelDescription.xml"), version);
         Instance one(unit, true, 1e-12);
         for (const char* const tied : {"l1", "l2"}) {
@@ -299,7 +299,7 @@ stop = true
 )toml");
     const Json final = simulated(scene, 3);
     CHECK(final["time"] == doctest::Approx(1.75).epsilon(1e-12));
-    const Unit unit = exported(scene, 2);
+    const Unit unit = exported(scene, 2, Compiled::as_shipped);
     Instance one(unit, true, 1e-12);
     one.begin();
     bool goes_on = true;
@@ -329,7 +329,7 @@ x = "-sqrt(x)"
 )toml");
     for (const int version : {2, 3}) {
         CAPTURE(version);
-        const Unit unit = exported(scene, version);
+        const Unit unit = exported(scene, version, Compiled::as_shipped);
         Instance exchanged(unit, false), one(unit, true);
         exchanged.begin();
         exchanged.update();
@@ -379,7 +379,7 @@ along = "x"
 stiffness = "k"
 )toml");
     for (const int version : {2, 3}) {
-        const Unit unit = exported(scene, version);
+        const Unit unit = exported(scene, version, Compiled::as_shipped);
         CHECK(unit.description.at("phi", "unit") == "rad");
         CHECK(unit.description.at("phi", "displayUnit") == "deg");
         CHECK(unit.description.at("der(x)", "displayUnit") == "mm/s");

@@ -87,6 +87,32 @@ TEST_CASE("fmu: rates and states that events set, in rounds, are those of a run"
     }
 }
 
+// Where the fourth tooth clicks, a second event of the instant takes the lock off, and the next click comes at the
+// fifth.
+TEST_CASE("fmu: a counter whose own event goes on to the next zero sees it after a second event of the instant") {
+    check_unit(temporary("teeth.toml", R"toml(
+[coordinates]
+phi = { initial = 0, rate = 1 }
+[states]
+tooth = {}
+lock = {}
+[energy]
+kinetic = "0.1*phi'^2/2"
+[forces]
+phi = "sin(3*t) - 0.05*phi' - 40*lock*min(0, phi - 0.3*tooth)"
+[[event]]
+name = "click"
+when = "phi - 0.3*(tooth + 1)"
+direction = "up"
+set = { tooth = "tooth + 1", lock = 1 }
+[[event]]
+name = "free"
+when = "tooth - 4"
+set = { lock = 0 }
+)toml"),
+               4, 1e-6);
+}
+
 TEST_CASE("fmu: impulses and rates stand beside states, coupled coordinates and constraints") {
     const auto coupled = [](const char* const action) {
         return temporary("coupled.toml", fmt::format(R"toml(
