@@ -50,7 +50,69 @@ slip = "xc'"
 on = "floor"
 )toml";
 
+constexpr double mass_of_crank = 0.6, mass_of_coupler = 2;
+
+/// A coupler on `cranks` cranks of length 1 by joints, with their feet on one line, where it lies at the start.
+std::string by_joints(int cranks, double rate) {
+    std::string bodies = "gravity = [0, -9.81]\n[[body]]\nname = \"c\"\nmass = 2\ninertia = 0.7\n", joints;
+    for (int k = 0; k < cranks; ++k) {
+        const double foot = cranks == 1 ? 0 : 2.0 * k / (cranks - 1);  // the middle of three is in the middle
+        bodies += fmt::format("[[body]]\nname = \"k{}\"\nmass = 0.6\ninertia = 0.05\n", k);
+        joints += fmt::format(
+            "[[joint]]\nname = \"j{0}\"\ntype = \"revolute\"\nparent = \"N\"\nchild = \"k{0}\"\n"
+            "parent_point = [{1}, 0]\nchild_point = [-0.5, 0]\ncoordinates = {{ q{0} = {{ initial = 0, rate = {2} "
+            "}} "
+            "}}\n[[joint]]\nname = \"t{0}\"\ntype = \"revolute\"\nparent = \"k{0}\"\nchild = \"c\"\n"
+            "parent_point = [0.5, 0]\nchild_point = [{3}, 0]\n{4}",
+            k, foot, rate, foot - 1,
+            k == 0 ? fmt::format("coordinates = {{ p = {{ initial = 0, rate = {} }} }}\n", -rate) : "");
+    }
+    return bodies + joints + "[simulation]\nduration = 3\ntolerance = 1e-10\n";
+}
+
+/// The angle of the cranks after `duration`: (n J + m) q'' = −(n m_k/2 + m) g cos q, by the method of Runge and
+/// Kutta.
+double angle_of_pendulum(int cranks, double rate, double duration) {
+    const double J = cranks * (0.05 + mass_of_crank / 4) + mass_of_coupler,
+                 moment = (cranks * mass_of_crank / 2 + mass_of_coupler) * 9.81;
+    const auto f = [&](double q) { return -moment / J * std::cos(q); };
+    double q = 0, u = rate;
+    constexpr int steps = 30000;
+    const double h = duration / steps;
+    for (int k = 0; k < steps; ++k) {
+        const double u2 = u + h / 2 * f(q), u3 = u + h / 2 * f(q + h / 2 * u), u4 = u + h * f(q + h / 2 * u2);
+        const double sum = f(q) + 2 * f(q + h / 2 * u) + 2 * f(q + h / 2 * u2) + f(q + h * u3);
+        q += h / 6 * (u + 2 * u2 + 2 * u3 + u4);
+        u += h / 6 * sum;
+    }
+    return q;
+}
+
 }  // namespace
+
+TEST_CASE("flat: simulate and sweep begin linkages by joints in a flat pose, at rest and in motion") {
+    for (const int cranks : {2, 3})
+        for (const double rate : {9.0, 0.0}) {
+            if (cranks == 3 && rate == 0) continue;
+            CAPTURE(cranks);
+            CAPTURE(rate);
+            const std::string scene = temporary("flat_joints.toml", by_joints(cranks, rate));
+            const double exact = angle_of_pendulum(cranks, rate, 3);
+            for (const char* const method : {"auto", "dop853", "verner98"}) {
+                CAPTURE(method);
+                CHECK(std::abs(coordinate(json_of({"simulate", scene, "--method", method}), "q0") - exact) < 1e-6);
+                const Json row = swept({scene, "--vary", "t=0:1:2", "--method", method})["rows"][1];
+                CHECK(row["status"] == "done");
+                CHECK(std::abs(row["final"]["coordinates"]["q0"].get<double>() - exact) < 1e-6);
+            }
+        }
+}
+
+TEST_CASE("flat: bench measures methods from a flat pose") {
+    const Json table = json_of({"bench", temporary("flat_bench.toml", by_joints(2, 9)), "--method", "dop853"});
+    REQUIRE(table["runs"].size() > 0);
+    for (const Json& one : table["runs"]) CHECK(one["error"].get<double>() < 1e-3);
+}
 
 TEST_CASE("flat: a force with a sign keeps its sign where a linkage passes a singular pose") {
     for (const char* const method : {"verner98", "dop853"}) {

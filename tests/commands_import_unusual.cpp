@@ -152,4 +152,25 @@ TEST_CASE(
           doctest::Approx(1.5 * 9.81 * 0.5 * std::sin(0.4) / (0.1 + 1.5 * 0.25 + 1e-9)).epsilon(1e-13));
 }
 
+TEST_CASE("import: a tensor that breaks the triangle inequality is told for its link, with the line") {
+    const std::string file =
+        file_of({.inertia = R"(<inertia ixx="1" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/>)"});
+    const std::string scene = temporary("unusual.toml", "");
+    const auto told = run({"import", file, "-o", scene});
+    CHECK(told.exit == 0);
+    CHECK(told.err.find("warning: the principal moments of inertia of link 'arm' break the triangle inequality: "
+                        "0.01 + 0.01 is less than 1; no body has them") != std::string::npos);
+    CHECK(told.err.find("unusual.urdf:") != std::string::npos);
+    const std::string model = R"(<mujoco><worldbody><body name="arm"><joint type="hinge"/>
+<inertial pos="0 0 0" mass="1" diaginertia="1 0.01 0.01"/></body></worldbody></mujoco>)";
+    const auto of_mjcf = run({"import", temporary("unusual.xml", model), "-o", scene});
+    CHECK(of_mjcf.exit == 0);
+    CHECK(of_mjcf.err.find("unusual.xml:2") != std::string::npos);
+    CHECK(of_mjcf.err.find("of link 'arm' break the triangle inequality") != std::string::npos);
+    // A plate has C = A + B, written with few digits.
+    CHECK(run({"import", file_of({.inertia = R"(<inertia ixx=".1" iyy=".2" izz=".3" ixy="0" ixz="0" iyz="0"/>)"}),
+               "-o", scene})
+              .err.find("triangle") == std::string::npos);
+}
+
 }  // namespace commands_import_unusual

@@ -225,4 +225,24 @@ TEST_CASE(
     CHECK(refused("scenes/friction/coulomb_oscillator.toml", "x").find("friction") != std::string::npos);
 }
 
+TEST_CASE("simulate --sensitivity: a derivative that is infinite is named") {
+    const std::string scene = temporary("root.toml", R"toml(
+[parameters]
+k = 1
+[coordinates]
+x = { initial = 0, rate = 1 }
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "k*sqrt(x)"
+[simulation]
+duration = 1
+)toml");
+    const auto result = run({"simulate", scene, "--sensitivity", "x"});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("d(x')/d(x) (component 3)") != std::string::npos);
+}
+
 }  // namespace commands_sensitivity

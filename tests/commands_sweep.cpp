@@ -302,4 +302,28 @@ TEST_CASE("sweep: Sobol's points lie one in each equal part of every one of 21 r
     CHECK_THROWS(alembert::sampled(axes, 8, alembert::Sampling::sobol, 0));
 }
 
+TEST_CASE("sweep: an event whose expression ends is told once, as by simulate") {
+    const std::string scene = temporary("ends.toml", R"toml(
+[coordinates]
+x = { initial = 0, rate = 1 }
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[[event]]
+name = "edge"
+when = "sqrt(1 - x)"
+stop = true
+[simulation]
+duration = 3
+)toml");
+    const auto result = run({"sweep", scene, "--vary", "x=0:0.5:20"});
+    const std::string told = "the expression of event 'edge' has a value at t = ";
+    CHECK(result.exit == 0);
+    const auto first = result.err.find(told);
+    REQUIRE(first != std::string::npos);
+    CHECK(result.err.find(told, first + 1) == std::string::npos);
+    CHECK(run({"sweep", scene, "--vary", "x=-9:-8:3"}).err.empty());  // it does not come so far
+}
+
 }  // namespace commands_sweep

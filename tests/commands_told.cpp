@@ -302,4 +302,48 @@ TEST_CASE("told: no output overwrites a file of a class or of loops, and a class
               .exit == 3);
 }
 
+TEST_CASE("told: a stiffness or damping that is a negative number, with its line, unless the scene allows it") {
+    const std::string spring = "[[spring]]\nalong = \"x\"\nstiffness = ",
+                      damper = "[[damper]]\nalong = \"x\"\ndamping = ";
+    for (const auto& [more, told] :
+         {std::pair{spring + "-5\n", "15:13: warning: the stiffness of this spring is -5: "},
+          std::pair{spring + "\"-k\"\n", "15:14: warning: the stiffness of this spring is -3: "},
+          std::pair{damper + "\"-2*c\"\n", "15:12: warning: the damping of this damper is -0.2: "}}) {
+        CAPTURE(more);
+        const auto result = run({"eval", on_line(more)});
+        CHECK(result.exit == 0);
+        CHECK(result.err.find(told) != std::string::npos);
+        CHECK(warnings(on_line(more), "suspicious_number") == 1);
+    }
+    // What varies is meant, as the damping of van der Pol's equation.
+    for (const std::string& more :
+         {spring + "\"k\"\n", damper + "\"c\"\n", damper + "\"-c*(1 - x^2/l^2)\"\n", spring + "0\n"})
+        CHECK(warnings(on_line(more), "suspicious_number") == 0);
+    const std::string negative = on_line(spring + "-5\n");
+    CHECK(run({"eval", negative, "--at", "k=1"}).err.find("stiffness") != std::string::npos);
+    CHECK(run({"eval", on_line(spring + "\"k\"\n"), "--at", "k=-1"}).err.find("is -1: ") != std::string::npos);
+}
+
+TEST_CASE("told: values of --at in another unit, of angles too, and the line of a division by zero") {
+    const std::string scene = temporary("angles.toml", R"toml(
+[parameters]
+l = { value = 1, unit = "m" }
+[coordinates]
+theta = { initial = 0.5, unit = "rad" }
+[[particle]]
+name = "p"
+mass = 1
+position = ["l*sin(theta)", "-l*cos(theta)"]
+[energy]
+potential = "1/theta"
+)toml");
+    const auto told = [&](const char* at) { return run({"eval", scene, "--at", at}).err; };
+    CHECK(told("theta=1 kg").find("'theta' is in rad, and its value '1 kg' is in kg") != std::string::npos);
+    CHECK(told("theta'=1 kg").find("'theta'' is in rad/s, and") != std::string::npos);
+    CHECK(told("l=20 deg").find("'l' is in m, and its value '20 deg' is in 1 (a number or an angle)") !=
+          std::string::npos);
+    CHECK(told("theta=20 deg").empty());
+    CHECK(told("theta=0").find("a division by zero in [energy] potential (line 11)") != std::string::npos);
+}
+
 }  // namespace commands_told

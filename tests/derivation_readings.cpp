@@ -875,9 +875,11 @@ TEST_CASE("readings: sines and cosines by index, factors on a part of a sum, rat
 }
 
 TEST_CASE("readings: what stays where it was in a motion from rest is constant") {
-    const std::string cars = "[parameters]\nM = 3\nm = 1\nk = 2\n[coordinates]\nX = 0\ns = 0.1\n[energy]\nkinetic = "
-                             "\"M*X'^2/2 + m*(X' + s')^2/2\"\npotential = \"k*s^2/2\"\n";
-    const std::string start = "All starts from rest at $s = 0$. Then $(M + m)\\dot X + m\\dot s = 0$, hence $(M + m)X + ";
+    const std::string cars =
+        "[parameters]\nM = 3\nm = 1\nk = 2\n[coordinates]\nX = 0\ns = 0.1\n[energy]\nkinetic = "
+        "\"M*X'^2/2 + m*(X' + s')^2/2\"\npotential = \"k*s^2/2\"\n";
+    const std::string start =
+        "All starts from rest at $s = 0$. Then $(M + m)\\dot X + m\\dot s = 0$, hence $(M + m)X + ";
     CHECK(statuses(cars, start + "m s = \\mathrm{const}$.").substr(1) == "RR");
     CHECK(statuses(cars, start + "2 m s = \\mathrm{const}$.").back() == 'M');
     CHECK(statuses(cars, "Then $(M + m)X + m s = \\mathrm{const}$.") == "M");

@@ -193,20 +193,27 @@ std::string unit_in_si(const Scene& scene, const std::string& name) {
     return unit;
 }
 
+/// An angle has the dimension of a number.
+std::string shown(Dimension dimension, const std::string& unit) {
+    if (unit == "rad") dimension[unit] = 1;
+    return dimension.empty() ? say("1 (a number or an angle)") : text_of(dimension);
+}
+
 /// Throws where the units in a value make another dimension than the name has.
 void refuse_other_unit(const Scene& scene, const std::string& name, const Expression& value) {
     Dimensions dimensions(scene, Dimensions::Numbers::pure);
     const std::optional<Dimension> made = dimensions.of(value);
     const std::string stem = name.substr(0, name.find('\''));
-    std::optional<Dimension> own = dimension_of_unit(unit_in_si(scene, stem));
+    const std::string unit = unit_in_si(scene, stem);
+    std::optional<Dimension> own = dimension_of_unit(unit);
     if (made && !own)
         for (const ConcludedDimension& one : concluded_dimensions(scene))
             if (one.name == stem) own = one.dimension;
     if (!made || !own) return;
     own = over_time(*std::move(own), static_cast<int>(name.size() - stem.size()));
     if (*made == *own) return;
-    throw ModelError(say("{} is in {}, and its value {} is in {}", in_quotes(name), text_of(*own),
-                         in_quotes(value.text), text_of(*made)));
+    throw ModelError(say("{} is in {}, and its value {} is in {}", in_quotes(name), shown(*own, unit),
+                         in_quotes(value.text), shown(*made, "")));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "codegen/emit/casadi.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/standalone.hpp"
+#include "program/event_places.hpp"
 #include "program/known_knots.hpp"
 #include "program/lower/frame_functions.hpp"
 #include "program/lower/operational_space.hpp"
@@ -44,7 +45,7 @@ std::vector<double> state_in(const Start& start, const Emission& e) {
 }
 
 /// The main program supports equations and constraints only.
-SourceFile main_program(const Emission& e, const Program& program, CodeLanguage language) {
+SourceFile main_program(const Emission& e, const Program& program, CodeLanguage language, int event_places) {
     const Mechanism& m = e.mechanism;
     if (m.has_modes())
         throw ModelError(
@@ -61,8 +62,29 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
          .duration = start.duration,
          .tolerance = start.tolerance,
          .quick_times = sudden_times(quick_times(program, start.parameters, start.t, start.t + start.duration)),
-         .stops = stops},
+         .stops = stops,
+         .event_places = event_places},
         language);
+}
+
+/// For a main program that ends at events: the function of where these may be zero for a short time. Gives the
+/// number of its values.
+int add_event_places(Emission& e, Program& program) {
+    const auto& actions = e.mechanism.event_actions;
+    const std::vector<int> events = program.nodes_of(Group::event);
+    std::vector<int> stops;
+    for (std::size_t k = 0; k < actions.size(); ++k)
+        if (actions[k].stop) stops.push_back(events[k]);
+    std::vector<int> places = event_places(program, stops);
+    const auto count = static_cast<int>(places.size());
+    if (count > 0)
+        e.functions.push_back({.name = "event_places",
+                               .about =
+                                   "Events that end the motion may touch zero, or pass it and come back, where "
+                                   "one of these is zero.",
+                               .rows = count,
+                               .nodes = std::move(places)});
+    return count;
 }
 
 /// What the scene says of parameters, coordinates and speeds.
@@ -285,6 +307,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     if (!options.name.empty()) program.name = options.name;
     if (options.standalone || options.casadi)  // these have parameters alone, and nobody gives inputs
         for (Quantity& p : program.parameters) p.from_outside = false;
+    const int places = options.standalone ? add_event_places(e, program) : 0;
     EmitOptions text{.batch = options.batch,
                      .language = options.language,
                      .functions = e.functions,
@@ -295,7 +318,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     add_example(text, e);
     e.source = emit(program, text);
     if (options.standalone) {
-        e.main = main_program(e, program, options.language);
+        e.main = main_program(e, program, options.language, places);
         const Start start = start_of(e.mechanism);
         tell_narrow_places(e, program, Kinks::watched, start.state(), start.duration);
         for (const std::string& name : tables_with_close_knots(program))

@@ -27,6 +27,7 @@ Work work_of(const Mechanism& m) {
 struct Account {
     EnergyError energy_error;
     RunningExtrema along;
+    EndedEvents ended;
 };
 
 Outcome outcome_of(const HybridMotion& motion, const Account& account, bool along) {
@@ -38,7 +39,8 @@ Outcome outcome_of(const HybridMotion& motion, const Account& account, bool alon
             .work_balance = account.energy_error.balance(),
             .stopped = motion.ending == Ending::stopped_by_event,
             .failure = motion.failure ? motion.failure->message : std::string(),
-            .along = along ? account.along.values() : std::vector<double>()};
+            .along = along ? account.along.values() : std::vector<double>(),
+            .ended = account.ended.found()};
 }
 
 }  // namespace
@@ -124,7 +126,8 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
                               .qddot = {}};
     const bool works = work_ == Work::integrated;
     Account account{.energy_error = EnergyError(static_cast<int>(n), static_cast<int>(width - n), works),
-                    .along = RunningExtrema(static_cast<int>(n), static_cast<int>(width))};
+                    .along = RunningExtrema(static_cast<int>(n), static_cast<int>(width)),
+                    .ended = EndedEvents(derived_.mechanism.events.size())};
     std::optional<MassWatch> masses;
     if (bodies_) masses.emplace(derived_, member.parameters, width - n, bodies_);
     std::optional<TableWatch> tables;
@@ -142,6 +145,7 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
                           if (tables) (*tables)(t, y);
                           account.energy_error(mode.module.table(), mode.par, t, y, rate);
                           if (along_) account.along(t, y.data(), rate.data());
+                          account.ended(mode.module.table(), mode.par.data(), t, y.data(), rate.data());
                       });
     const LoadedMode& free = modes({});
     Contacts contacts = contacts_at(start);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "alembert/base/error.hpp"
+#include "alembert/ode/ended_events.hpp"
 #include "base/language/say.hpp"
 #include "model/multipliers.hpp"
 #include "scene/text.hpp"
@@ -93,27 +94,30 @@ bool is_continued(const Trajectory& here, const Trajectory& next) {
 
 }  // namespace
 
+std::string warning_of_end(const std::string& event, double last, double first_without) {
+    return say(
+        "warning: the expression of event '{}' has a value at t = {:.6g} and none at t = {:.6g}: it ends between "
+        "them, and nothing is found where it has none\n",
+        event, last, first_without);
+}
+
 std::vector<EndedEvent> ended_events(const HybridMotion& motion, const Mechanism& m, LoadedModes& modes) {
-    std::vector<EndedEvent> result;
-    std::vector<std::optional<double>> last(m.events.size());  // where each had a value
-    if (m.events.empty()) return result;
+    EndedEvents ended(m.events.size());
+    if (m.events.empty()) return {};
     for (const Phase& phase : motion.phases) {
         LoadedMode& mode = modes(phase.closed);
-        const alembert_solver_table& table = mode.module.table();
-        std::vector<double> rate(static_cast<std::size_t>(mode.contact.system.rhs.dimension)),
-            value(std::max(m.events.size(), static_cast<std::size_t>(table.events)), 0);
+        std::vector<double> rate(static_cast<std::size_t>(mode.contact.system.rhs.dimension));
         for (std::size_t row = 0; row < phase.motion.rows(); ++row) {
             const double t = phase.motion.times[row];
             const auto state = phase.motion.state(row);
             mode.hold_sides(t, state.data());
             mode.contact.system.rhs(t, state.data(), rate.data());
-            table.events_at(t, state.data(), rate.data(), mode.par.data(), value.data());
-            for (std::size_t k = 0; k < m.events.size(); ++k) {
-                if (std::isnan(value[k]) && last[k]) result.push_back({m.events[k].name, *last[k], t});
-                last[k] = std::isnan(value[k]) ? std::nullopt : std::optional(t);
-            }
+            ended(mode.module.table(), mode.par.data(), t, state.data(), rate.data());
         }
     }
+    std::vector<EndedEvent> result;
+    for (const EndedEvents::One& one : ended.found())
+        result.push_back({m.events[static_cast<std::size_t>(one.event)].name, one.last, one.first_without});
     return result;
 }
 

@@ -45,6 +45,8 @@ struct EndedEvent {
     std::string name;
     double last, first_without;
 };
+/// What is told of it.
+std::string warning_of_end(const std::string& event, double last, double first_without);
 std::vector<EndedEvent> ended_events(const HybridMotion& motion, const Mechanism& mechanism, LoadedModes& modes);
 
 }  // namespace alembert

@@ -242,10 +242,14 @@ Sensitivity Sensitivities::forwards(double end, const SensitivityOptions& option
     const Variation<double> variation(program_, start_.parameters, parameters_);
     const double duration = end - start_.t;
     Teller teller(options, start_.t, duration);
-    const Rhs both = make_rhs(static_cast<int>(N * (1 + columns)), [&](double t, const double* y, double* rate) {
+    Rhs both = make_rhs(static_cast<int>(N * (1 + columns)), [&](double t, const double* y, double* rate) {
         teller.tell(t);
         variation(t, y, rate, columns);
     });
+    const std::vector<std::string> state = names_of_state(program_);
+    both.names = state;
+    for (const std::string& name : names_)
+        for (const std::string& of : state) both.names.push_back(fmt::format("d({})/d({})", of, name));
     std::vector<double> y = state_;
     for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
     const System system = watched(both, end);
@@ -326,10 +330,12 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, const Sensitivit
     const Variation<double> variation(program_, start_.parameters, parameters_);
     const double duration = end - start_.t;
     Teller teller(wishes, start_.t, 3 * duration);  // there twice, and back
-    const Rhs alone = make_rhs(static_cast<int>(N), [&](double t, const double* y, double* rate) {
+    Rhs alone = make_rhs(static_cast<int>(N), [&](double t, const double* y, double* rate) {
         teller.tell(t);
         variation(t, y, rate, 0);
     });
+    const std::vector<std::string> state = names_of_state(program_);
+    alone.names = state;
     Options options{.start = start_.t,
                     .duration = duration,
                     .tolerance = wishes.tolerance,
@@ -356,13 +362,18 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, const Sensitivit
         y.insert(y.end(), row.begin(), row.end());
         y.insert(y.end(), columns, 0.0);
     }
+    std::vector<std::string> names = state;
+    for (const std::string& of : of_)
+        for (const auto* by : {&state, &names_})
+            for (const std::string& name : *by) names.push_back(fmt::format("d({})/d({})", of, name));
     for (std::size_t k = motion.rows() - 1; k > 0; --k) {
         const double from = motion.times[k];
         std::copy(motion.state(k).begin(), motion.state(k).end(), y.begin());
-        const Rhs back = make_rhs(static_cast<int>(y.size()), [&](double s, const double* now, double* rate) {
+        Rhs back = make_rhs(static_cast<int>(y.size()), [&](double s, const double* now, double* rate) {
             teller.tell(end + 2 * (end - from));
             variation.backwards(from - s, now, rate, rows);
         });
+        back.names = names;
         const double length = from - motion.times[k - 1];
         const Trajectory piece = integrated(reversed(forwards, back, from), y,
                                             {.duration = length,

@@ -405,11 +405,7 @@ private:
         run_.rows = rows_of(run_.motion, run_, modes, reactions(), first_);
         if (has_records(m)) run_.event_rows = rows_at_events(run_.motion, run_, modes, reactions(), first_);
         for (const EndedEvent& one : ended_events(run_.motion, m, modes))
-            run_.warn(
-                "not_a_number",
-                say("warning: the expression of event '{}' has a value at t = {:.6g} and none at t = {:.6g}: it "
-                    "ends between them, and nothing is found where it has none\n",
-                    one.name, one.last, one.first_without));
+            run_.warn("not_a_number", warning_of_end(one.name, one.last, one.first_without));
         if (run_.motion.failure) run_.failure = reason_of(*run_.motion.failure, modes);
     }
 

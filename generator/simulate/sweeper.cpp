@@ -210,6 +210,7 @@ void Sweeper::run(const SweepDesk& desk, int threads) {
     const EnsembleFeed feed{.next = [&] { return next(desk); },
                             .done =
                                 [&](const Member& member, const Outcome& outcome, std::span<const double> state) {
+                                    note_ended(member.index, outcome.ended);
                                     keep(member.index, motion_of(member, outcome, state), desk);
                                 },
                             .breathe = desk.breathe,
@@ -217,6 +218,7 @@ void Sweeper::run(const SweepDesk& desk, int threads) {
     const Feeding used = integrate(*ensemble_, feed, options_);
     s_.packed = used.packed;
     s_.threads = used.threads;
+    tell_ended();
     s_.timings.integrate = process_seconds() - begin;
     if (!phased_) return;
     const double seconds = phased_->seconds_of_compiler();  // some modes were compiled while motions ran
@@ -327,6 +329,21 @@ SweptMotion Sweeper::motion_of(const Member& member, const Outcome& outcome, std
                 "double precision, or divide by zero");
     }
     return m;
+}
+
+void Sweeper::note_ended(std::size_t k, const std::vector<EndedEvents::One>& ended) {
+    if (ended.empty()) return;
+    const std::lock_guard lock(giving_);
+    for (const EndedEvents::One& one : ended) {
+        const auto known = ended_.try_emplace(one.event, k, one).first;
+        if (k < known->second.first) known->second = {k, one};
+    }
+}
+
+void Sweeper::tell_ended() {
+    for (const auto& [event, first] : std::exchange(ended_, {}))
+        s_.warn("not_a_number", warning_of_end(s_.mechanism.events[static_cast<std::size_t>(event)].name,
+                                               first.second.last, first.second.first_without));
 }
 
 void Sweeper::keep(std::size_t k, SweptMotion motion, const SweepDesk& desk) {

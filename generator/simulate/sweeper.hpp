@@ -14,9 +14,11 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "alembert/batch/ensemble.hpp"
 #include "analysis/state/inertia_check.hpp"
@@ -80,6 +82,9 @@ private:
     SweptMotion motion_of(const Member& member, const Outcome& outcome, std::span<const double> state) const;
     SweptMotion refused(const std::string& why) const;
     void keep(std::size_t k, SweptMotion motion, const SweepDesk& desk);
+    void note_ended(std::size_t k, const std::vector<EndedEvents::One>& ended);
+    /// Warns of events whose expressions end, once of each.
+    void tell_ended();
 
     Sweep s_;
     RunOptions wishes_;
@@ -95,6 +100,7 @@ private:
     std::optional<PhasedMembers> phased_;  ///< if motions are not smooth
     std::optional<Ensemble> ensemble_;     ///< once it is compiled; without members
     std::string key_;
+    std::map<int, std::pair<std::size_t, EndedEvents::One>> ended_;  ///< by event, in which motion first
 
     std::mutex taking_, giving_;
     SweepPart current_ = {};                ///< what is left of the part from which members are taken

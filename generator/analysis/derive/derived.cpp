@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/derive/derived.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "alembert/base/process_time.hpp"
 #include "analysis/audit/audit.hpp"
@@ -217,6 +218,52 @@ struct Failure {
     bool is_massless() const { return kind == Kind::massless; }
 };
 
+/// The line of a load or an energy in the scene; 0 for what has none of its own.
+int line_of(const Scene& scene, const Origin& origin) {
+    const auto k = static_cast<std::size_t>(origin.index);
+    switch (origin.kind) {
+        case Origin::Kind::spring:
+            return scene.springs[k].place.line;
+        case Origin::Kind::damper:
+            return scene.dampers[k].place.line;
+        case Origin::Kind::force:
+            return scene.forces[k].place.line;
+        case Origin::Kind::torque:
+            return scene.torques[k].place.line;
+        case Origin::Kind::generalized_force:
+            return scene.generalized_forces[k].value.place().line;
+        case Origin::Kind::given_kinetic:
+            return scene.kinetic.place().line;
+        case Origin::Kind::given_potential:
+            return scene.potential.place().line;
+        case Origin::Kind::given_lagrangian:
+            return scene.lagrangian.place().line;
+        case Origin::Kind::rayleigh:
+            return scene.rayleigh.place().line;
+        default:
+            return 0;
+    }
+}
+
+/// " (line 8)", for the parts of these labels.
+std::string lines_of(const Derived& d, const std::vector<std::string>& labels) {
+    std::set<int> lines;
+    const auto add = [&](const Origin& origin) {
+        if (std::find(labels.begin(), labels.end(), label(origin)) != labels.end())
+            if (const int line = line_of(d.scene, origin); line > 0) lines.insert(line);
+    };
+    const auto look = [&](const auto& parts) {
+        for (const auto& part : parts) add(part.origin);
+    };
+    add({.kind = Origin::Kind::given_lagrangian});
+    look(d.mechanism.kinetic);
+    look(d.mechanism.potential);
+    look(d.mechanism.loads);
+    if (lines.empty()) return "";
+    return " " +
+           (lines.size() == 1 ? say("(line {})", *lines.begin()) : say("(lines {})", fmt::join(lines, ", ")));
+}
+
 std::optional<Failure> found_failure(const Derived& d, const State<double>& state) {
     const auto other = [](std::optional<std::string> reason) -> std::optional<Failure> {
         if (!reason) return std::nullopt;
@@ -234,7 +281,7 @@ std::optional<Failure> found_failure(const Derived& d, const State<double>& stat
     if (auto ended = ended_table(program, state, group)) return other(ended);
     auto found = not_finite(program, state, group);
     if (!found) return std::nullopt;
-    return Failure{std::move(found->text),
+    return Failure{found->text + lines_of(d, found->parts),
                    found->is_division ? Failure::Kind::division_by_zero : Failure::Kind::other};
 }
 

@@ -119,6 +119,18 @@ struct RowsAt {
     }
 };
 
+/// "x = 1, y = 0, …"
+std::string pose_of(const Program& program, const State<double>& state) {
+    constexpr std::size_t most = 6;
+    std::string result;
+    for (std::size_t i = 0; i < program.coordinates.size(); ++i) {
+        if (i == most) return result + ", …";
+        const double q = std::abs(state.q[i]) < 1e-12 ? 0 : state.q[i];
+        result += fmt::format("{}{} = {:.6g}", i == 0 ? "" : ", ", program.coordinates[i].name, q);
+    }
+    return result;
+}
+
 }  // namespace
 
 bool is_rank_rounding(const Program& program, const State<double>& state, const std::vector<int>& kept) {
@@ -144,11 +156,12 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
         ++count;
     }
     return say(
-        "{} in this pose, and the rank of the constraints drops from {} to {}; start beside it "
-        "(audit lists such poses, and simulate goes through most of them)",
+        "{} at {}, and the rank of the constraints drops from {} to {} there; start beside that pose, or with "
+        "rates "
+        "that lead through it (audit lists such poses, and simulate goes through most of them)",
         count == 1 ? say("constraint {} has no row left", names)
                    : say("the rows of constraints {} become dependent", names),
-        rows.rank, left);
+        pose_of(program, state), rows.rank, left);
 }
 
 std::optional<std::string> ended_table(const Program& program, const State<double>& state, Group group) {
@@ -188,9 +201,12 @@ std::optional<NotFinite> not_finite(const Program& program, const State<double>&
         else if (node.op == Op::sum || node.op == Op::product)
             what = say("a number too large for double precision");
         std::string where;
-        for (const int source : node.sources)
-            where += (where.empty() ? " in " : ", ") + program.source_labels[source];
-        return NotFinite{.text = what + where, .is_division = node.is_reciprocal()};
+        std::vector<std::string> parts;
+        for (const int source : node.sources) {
+            parts.push_back(program.source_labels[source]);
+            where += (where.empty() ? " in " : ", ") + parts.back();
+        }
+        return NotFinite{.text = what + where, .is_division = node.is_reciprocal(), .parts = std::move(parts)};
     }
     return std::nullopt;
 }

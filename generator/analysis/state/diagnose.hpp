@@ -37,6 +37,7 @@ std::optional<std::string> ended_table(const Program& program, const State<doubl
 struct NotFinite {
     std::string text;          ///< what it is, and the part from which it comes: "a division by zero in spring 1"
     bool is_division = false;  ///< by zero
+    std::vector<std::string> parts = {};  ///< labels of the parts of the mechanism in `text` (origin.hpp)
 };
 
 /// The first value that is not finite in the computation of `group`.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/state/likely_mistakes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,6 +39,7 @@ public:
         find_idle_loads();
         find_unlike_masses();
         find_stretched_springs();
+        find_negative_constants();
         return std::move(found_);
     }
 
@@ -246,6 +249,47 @@ private:
                     "apart; give it length = …, or length = 0 if that is meant",
                     distance),
                 "no_length", given.between->first.text);
+        }
+    }
+
+    /// The quotient, if it is the same number at random states.
+    std::optional<double> constant(const GiNaC::ex& above, const GiNaC::ex& below) const {
+        Program program = begun(m_);
+        const std::vector<int> nodes = lower_expressions(program, m_, {above, below});
+        std::mt19937_64 random(3);
+        std::optional<double> first;
+        for (int k = 0; k < states_tried; ++k) {
+            const Numbers value = interpret(program, random_state(random));
+            const double now =
+                value[static_cast<std::size_t>(nodes[0])] / value[static_cast<std::size_t>(nodes[1])];
+            if (!first) first = now;
+            if (!(std::abs(now - *first) <= 1e-9 * std::abs(*first))) return std::nullopt;
+        }
+        return first;
+    }
+
+    /// Where stiffness or damping varies, as in van der Pol's equation, its sign is meant.
+    void find_negative_constants() {
+        const auto find = [&](const Link& link, const std::optional<double>& value, const auto& text) {
+            if (value && *value < 0)
+                tell(link.constant.place(), text(fmt::format("{:.6g}", *value)), "suspicious_number",
+                     link.between ? link.between->first.text : "");
+        };
+        for (const SpringElement& spring : m_.springs)
+            find(scene_.springs[static_cast<std::size_t>(spring.origin.index)], constant(spring.stiffness, 1),
+                 [](const std::string& k) {
+                     return say(
+                         "the stiffness of this spring is {}: it pushes away from where it is unstretched; "
+                         "expected "
+                         "0 or more",
+                         k);
+                 });
+        for (const Load& load : m_.loads) {
+            if (load.origin.kind != Origin::Kind::damper || load.pairs.empty()) continue;
+            find(scene_.dampers[static_cast<std::size_t>(load.origin.index)],
+                 constant(-load.pairs[0].force, load.pairs[0].velocity), [](const std::string& c) {
+                     return say("the damping of this damper is {}: it feeds energy; expected 0 or more", c);
+                 });
         }
     }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
@@ -22,6 +23,18 @@ std::vector<std::string> quick_rows(const std::vector<InputTimeScale>& quick) {
                                    shortest(q.step)));
     return rows;
 }
+
+namespace {
+
+/// Whether an event has accelerations in it.
+bool needs_rates(const Program& program) {
+    const std::vector<int> nodes = program.needed(program.nodes_of(Group::event));
+    return std::any_of(nodes.begin(), nodes.end(), [&](int id) {
+        return program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::acceleration;
+    });
+}
+
+}  // namespace
 
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language) {
     const Vocabulary words(program);
@@ -57,6 +70,10 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("stops_count", std::to_string(events.size()));
     file.set("stop_events", fmt::format("{}", fmt::join(events, ", ")));
     file.set("stop_directions", fmt::format("{}", fmt::join(directions, ", ")));
+    file.set("has_places", start.event_places > 0);
+    file.set("places", std::to_string(start.event_places));
+    file.set("pieces", needs_rates(program) ? "4" : "16");
+    file.set("needs_rates", needs_rates(program));
     file.set("projection", projection_text(program, language));
     file.set("initial", initial);
     file.set("columns", columns);

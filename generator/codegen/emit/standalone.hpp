@@ -25,6 +25,7 @@ struct StandaloneStart {
     double tolerance = 1e-9;                       ///< the tolerance of a step, relative to max(1, |y|)
     std::vector<InputTimeScale> quick_times = {};  ///< sudden_times
     std::vector<StopEvent> stops = {};
+    int event_places = 0;  ///< values of the function of that name in the emitted file; 0: there is none
 };
 
 /// "{from, to, enter, step}" of each, as C has it.

@@ -12,6 +12,7 @@
 
 #include "alembert/base/inertia.hpp"
 #include "base/language/say.hpp"
+#include "scene/import/possible_inertia.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -173,13 +174,7 @@ void Elements::read_inertial(const TiXmlElement& inertial, Robot::Link& link) {
     const Real33 own = inertia_matrix<double>({ixx, iyy, izz, ixy, iyz, ixz});
     link.inertia = turned<double>(own, at.rotation());
     if (!at.rpy.isZero(0)) link.own_axes = {at.rpy, own};
-    const double rounding = link.mass * 1e-12;  // of a body of a micrometre
-    if (const PrincipalAxes<> principal = principal_axes<double>(own);
-        has_negative_moment(principal, rounding / rounded_moment))
-        remark(place_of(*inertia),
-               say("the principal moments of inertia of link {}, {:.6g}, {:.6g} and {:.6g}, are not all zero "
-                   "or more; no body has them",
-                   in_quotes(link.name), principal.moments[0], principal.moments[1], principal.moments[2]));
+    if (const auto why = impossible_inertia(link.name, own, link.mass)) remark(place_of(*inertia), *why);
 }
 
 const TiXmlElement* Elements::only(const TiXmlElement& e, const char* tag) const {

@@ -10,6 +10,7 @@
 #include "base/language/say.hpp"
 #include "scene/import/mjcf_reader.hpp"
 #include "scene/import/mjcf_rules.hpp"
+#include "scene/import/possible_inertia.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -314,6 +315,9 @@ void MjcfReader::read_mass(const XmlElement& e, const std::vector<MjcfPart>& par
         file_.drop(say("contact and looks of <geom>"), name);
     }
     values_->bound(mass);
+    if (inertial)
+        if (const auto why = impossible_inertia(name, mass.inertia, mass.mass))
+            file_.remark(*inertial->element, *why);
     Robot::Link& link = robot_.links[static_cast<std::size_t>(body.link)];
     link.mass = mass.mass;
     link.centre = mass.centre - body.origin;

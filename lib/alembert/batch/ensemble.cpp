@@ -229,6 +229,7 @@ private:
         options.sample = member.duration;  // no rows but the end
         RunningExtrema along(table.coordinates, table.coordinates + table.speeds);
         std::vector<Passing> passing;
+        EndedEvents ended(e_.stops.size());
         RunPiece piece;
         if (e_.along && needs_series(options.method))
             piece.on_step_view = [&](const StepView& step) {
@@ -237,6 +238,7 @@ private:
             };
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             energy_error(table, par, t, y, rate);
+            ended(table, par.data(), t, y.data(), rate.data());
             if (!e_.along) return;
             for (const Passing& one : passing)
                 if (one.t < t) along(one.t, one.state.data(), one.rate.data());
@@ -265,7 +267,8 @@ private:
                     .work_balance = energy_error.balance(),
                     .stopped = motion.ending == Ending::stopped_by_event,
                     .failure = motion.failure ? motion.failure->message : std::string(),
-                    .along = e_.along ? along.values() : std::vector<double>()},
+                    .along = e_.along ? along.values() : std::vector<double>(),
+                    .ended = ended.found()},
                    end.first(member.state.size()));
     }
 

@@ -35,6 +35,7 @@
 
 #include "alembert/batch/pack_series.hpp"
 #include "alembert/native/module.hpp"
+#include "alembert/ode/ended_events.hpp"
 #include "alembert/ode/integrate.hpp"
 
 namespace alembert {
@@ -79,6 +80,7 @@ struct Outcome {
     bool stopped = false;            ///< whether an event stopped the motion
     std::string failure = {};        ///< empty: none
     std::vector<double> along = {};  ///< RunningExtrema::values, with Ensemble::along
+    std::vector<EndedEvents::One> ended = {};  ///< where there are events, those whose functions end
 };
 
 struct Outcomes {

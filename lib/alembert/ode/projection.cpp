@@ -62,6 +62,7 @@ void Projection::forget() {
 
 /// The pose beside the start is where the coordinate that moves fastest has gone a tenth of a radian, or of the
 /// largest coordinate if that is less than 1. It does not count if pivots grow like those beside a pole there.
+/// Whether the start is singular shows when it is projected, at rest too.
 void Projection::begin(double t, const double* start) {
     constexpr double distance = 0.1,
                      steepest = 20;  // twice as far from a singular pose pivots are four times as large
@@ -72,22 +73,24 @@ void Projection::begin(double t, const double* start) {
     Eigen::Map<Eigen::VectorXd> q(state.data(), n_);
     const Eigen::VectorXd first = q, along = Eigen::Map<Eigen::VectorXd>(rate.data(), n_);
     const double fastest = along.lpNorm<Eigen::Infinity>(), size = q.lpNorm<Eigen::Infinity>();
-    if (!(fastest > 0 && fastest < HUGE_VAL)) return;
-    const auto look = [&](double share) {
+    const auto pivots = [&](double share) {
         q = first + share * distance * (size > 0 ? std::min(size, 1.0) : 1) / fastest * along;
         module_.projection()->project(t, state.data(), par_.data(), moved_.data(), violation_.data(),
                                       pivots_.data());
+        return pivots_;
     };
-    look(0.5);
-    const std::vector<double> halfway = pivots_;
-    look(1);
-    for (std::size_t k = 0; k < pivots_.size(); ++k)
-        if (!(std::abs(pivots_[k]) <= steepest * std::abs(halfway[k]))) return;
-    pivots_are_small();
-    evaluate(t, state.data());
-    saddle_.measure(mass_, Rows(in_speeds()));
-    look(0);
-    is_near_singular_ = pivots_are_small();
+    const auto measure_beside = [&] {
+        if (!(fastest > 0 && fastest < HUGE_VAL)) return;
+        const std::vector<double> halfway = pivots(0.5), beside = pivots(1);
+        for (std::size_t k = 0; k < beside.size(); ++k)
+            if (!(std::abs(beside[k]) <= steepest * std::abs(halfway[k]))) return;
+        pivots_are_small();
+        evaluate(t, state.data());
+        saddle_.measure(mass_, Rows(in_speeds()));
+    };
+    measure_beside();
+    q = first;
+    (*this)(t, state.data());
 }
 
 std::function<void(double t, double* state)> Projection::after_steps() {
