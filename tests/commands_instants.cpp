@@ -483,4 +483,46 @@ duration = 3
     CHECK_MESSAGE(slips, motion["contacts"].dump());
 }
 
+// Rounding leaves sin(π t) at 1e-16 where its sign changes; steps, knots and other events end at the same instant.
+TEST_CASE("instants: an event whose zero is where the run ends a step for another reason is not lost") {
+    const auto clock = [](const char* events) {
+        return temporary("clock.toml", fmt::format(R"toml([coordinates]
+x = {{ initial = -1, rate = 1 }}
+[states]
+n = {{}}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[tables]
+F = {{ arguments = ["t"], outside = "hold", points = [[0, 0], [1, 0], [2, 1], [3, 0], [4, 1], [5, 0.5], [6, 0]] }}
+{}[simulation]
+duration = 5.5
+)toml",
+                                                   events));
+    };
+    const std::string sampled =
+                          "[forces]\nx = \"F(t)\"\n[[event]]\nname = \"clock\"\nwhen = \"sin(pi*t)\"\nset = { n = "
+                          "\"n + 1\" }\n",
+                      place = "[[event]]\nname = \"place\"\nwhen = \"x\"\nset = { n = \"n + 100\" }\n",
+                      alarm = "[[event]]\nname = \"alarm\"\nwhen = \"t - 1\"\nset = { n = \"n + 1000\" }\n";
+    const auto count = [](const std::string& scene, const std::vector<std::string>& method) {
+        return number(simulated(scene, method)["final"], "states", "n");
+    };
+    for (const char* const method : {"auto", "dop853", "verner98", "dopri5", "radau", "bdf", "taylor"}) {
+        CAPTURE(method);
+        CHECK(count(clock(sampled.c_str()), {"--method", method}) == 5);
+        CHECK(count(clock((sampled + place).c_str()), {"--method", method}) == 105);
+        CHECK(count(clock((sampled + place + alarm).c_str()), {"--method", method}) == 1105);
+    }
+    for (const char* const step : {"0.1", "0.05", "0.01"})
+        CHECK(count(clock((place + alarm).c_str()), {"--method", "rk4", "--step", step}) == 1100);
+    CHECK(swept({clock((sampled + place).c_str()), "--vary", "x=-1:-1:1"})["rows"][0]["final"]["states"]["n"] ==
+          105);
+    // one that comes to zero from the side that does not count does not happen
+    CHECK(count(clock("[[event]]\nname = \"place\"\nwhen = \"x\"\nset = { n = \"n + 100\" }\ndirection = "
+                      "\"down\"\n[[event]]\nname = \"alarm\"\nwhen = \"t - 1\"\nset = { n = \"n + 1000\" }\n"),
+                {}) == 1000);
+}
+
 }  // namespace commands_instants

@@ -262,8 +262,18 @@ private:
         return rhs;
     }
 
+    /// Whether an event has its zero where the piece begins, and not only soon after.
+    bool has_just_happened(int event) const {
+        constexpr double same_instant = 1e-12;
+        return std::any_of(result_.events.rbegin(), result_.events.rend(), [&](const EventRecord& one) {
+            return one.index == event && now_.t - one.time <= same_instant * std::max(1.0, std::abs(now_.t));
+        });
+    }
+
     Events with_watches(const std::vector<ModeGuard>& watched) const {
         std::vector<Event> list = events_.list;
+        for (std::size_t k = 0; k < list.size() && !result_.times.empty(); ++k)
+            list[k].at_once = list[k].at_once || !has_just_happened(static_cast<int>(k));
         for (const ModeGuard& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
         auto sides = std::make_shared<SlidingField>(system_, sides_, dimension());

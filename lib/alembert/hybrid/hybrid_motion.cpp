@@ -224,6 +224,24 @@ private:
         return result;
     }
 
+    /// The zeros of other events at the instant of an event: rounding may leave their values on the side from
+    /// which they come.
+    std::vector<LastZero> missed_zeros(const Halt& halt) const {
+        std::vector<LastZero> result =
+            zeros_at({*mode_, now_.state}, contacts_.kicks.events.size(), now_.t, options_.duration);
+        const double just_now = now_.t - 1e-12 * std::max(1.0, std::abs(now_.t));
+        std::erase_if(result, [&](const LastZero& zero) {
+            const auto is_of = [&](const auto& one) { return one.event == zero.event; };
+            const auto has_been = [&](const EventRecord& one) {
+                return one.index == zero.event && one.time >= just_now;
+            };
+            return std::any_of(halt.passed.begin(), halt.passed.end(), is_of) ||
+                   contacts_.kicks.is_of_multipliers(static_cast<std::size_t>(zero.event)) ||
+                   std::any_of(result_.events.begin(), result_.events.end(), has_been);
+        });
+        return result;
+    }
+
     /// The zeros at which the values of events are, and which what was set turns into the direction that counts
     /// for these: the motion grows through a zero to which it has fallen. Two events that turn each other back for
     /// ever are a failure.
@@ -300,6 +318,7 @@ private:
         end.touched = touched;
         end.released = released;
         turned_back_.clear();
+        if (mode_ && !halt.kicks.empty() && halt.contact < 0) next_round(halt, missed_zeros(halt));
         for (std::vector<int> events = halt.kicks;; end = ended()) {
             const std::vector<double> from = rates;
             const ContactMode* const old = mode_ ? &modes_(closed_) : nullptr;

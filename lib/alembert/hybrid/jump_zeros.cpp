@@ -63,6 +63,27 @@ std::vector<LastZero> zeros_of_jump(const ImpulsiveEvents& kicks, const EventJum
     return result;
 }
 
+std::vector<LastZero> zeros_at(const ModeAt& here, std::size_t events, double t, double duration) {
+    constexpr double same_instant = 1e-13;
+    const double h = short_time(t, duration);
+    std::vector<double> earlier = here.state, rate(here.state.size());
+    here.mode.system.rhs(t, here.state.data(), rate.data());
+    for (std::size_t i = 0; i < earlier.size(); ++i) earlier[i] -= h * rate[i];
+    const std::vector<double> before = values({here.mode, earlier}, t - h), now = values(here, t),
+                              then = values_soon(here, t, duration);
+    std::vector<LastZero> result;
+    for (std::size_t k = 0; k < events; ++k) {
+        const double slope = (then[k] - before[k]) / (2 * h);
+        if (!(before[k] * then[k] < 0) ||
+            !(std::abs(now[k]) <= same_instant * std::max(1.0, std::abs(t)) * std::abs(slope)))
+            continue;
+        const int side = slope > 0 ? 1 : -1, wanted = here.mode.events.list[k].direction;
+        result.push_back(
+            {.event = static_cast<int>(k), .direction = side, .counts = wanted == 0 || wanted == side});
+    }
+    return result;
+}
+
 PassedZero zero_along(const ModeAt& here, std::size_t event, double t, double duration) {
     const double h = short_time(t, duration), value = values(here, t)[event],
                  then = values_soon(here, t, duration)[event], change = then - value;

@@ -31,6 +31,10 @@ struct EventJump {
 /// All that pass zero, those in the direction that does not count included, in the order of the scene.
 std::vector<LastZero> zeros_of_jump(const ImpulsiveEvents& kicks, const EventJump& jump);
 
+/// The first `events` events whose values pass zero at this very instant, on whatever side of it rounding has left
+/// them.
+std::vector<LastZero> zeros_at(const ModeAt& here, std::size_t events, double t, double duration);
+
 /// What becomes of the zero of an event whose value is known along the motion alone, because it holds multipliers.
 PassedZero zero_along(const ModeAt& here, std::size_t event, double t, double duration);
 
