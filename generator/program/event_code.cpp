@@ -120,7 +120,22 @@ void collect_powers(const Program& program, int id, int exponent, std::map<int, 
         collect_powers(program, node.args[k], exponent * node.exponents[k], powers);
 }
 
-/// Whether a sum is one of a constant and even powers.
+/// Whether a function of the state is a constant and constant multiples of the variables.
+bool is_affine(const Program& program, int id) {
+    const Node& node = program[id];
+    if ((node.depends & of_state) == 0 || node.op == Op::variable) return true;
+    if (node.op == Op::sum)
+        return std::all_of(node.args.begin(), node.args.end(), [&](int arg) { return is_affine(program, arg); });
+    if (node.op != Op::product) return false;
+    int moving = 0;
+    for (std::size_t k = 0; k < node.args.size(); ++k)
+        if ((program[node.args[k]].depends & of_state) != 0)
+            moving += node.exponents[k] == 1 && is_affine(program, node.args[k]) ? 1 : 2;
+    return moving == 1;
+}
+
+/// Whether a sum is one of a constant and even powers of what is affine in the state. Inertias, which have those
+/// of sines and cosines, change with the state as a whole and not within a narrow region.
 bool is_bounded_below(const Program& program, int id) {
     const Node& sum = program[id];
     if (sum.op != Op::sum) return false;
@@ -129,7 +144,8 @@ bool is_bounded_below(const Program& program, int id) {
         std::map<int, int> powers;
         collect_powers(program, term, 1, powers);
         has_constant = has_constant || powers.empty();
-        if (std::any_of(powers.begin(), powers.end(), [](const auto& one) { return one.second % 2 != 0; }))
+        if (std::any_of(powers.begin(), powers.end(),
+                        [&](const auto& one) { return one.second % 2 != 0 || !is_affine(program, one.first); }))
             return false;
     }
     return has_constant;
@@ -148,20 +164,6 @@ bool is_peak(const Program& program, const Node& node) {
 
 bool is_kink(const Node& node) {
     return (node.op == Op::abs || node.op == Op::min || node.op == Op::max) && (node.depends & of_state) != 0;
-}
-
-/// Whether a function of the state is a constant and constant multiples of the variables.
-bool is_affine(const Program& program, int id) {
-    const Node& node = program[id];
-    if ((node.depends & of_state) == 0 || node.op == Op::variable) return true;
-    if (node.op == Op::sum)
-        return std::all_of(node.args.begin(), node.args.end(), [&](int arg) { return is_affine(program, arg); });
-    if (node.op != Op::product) return false;
-    int moving = 0;
-    for (std::size_t k = 0; k < node.args.size(); ++k)
-        if ((program[node.args[k]].depends & of_state) != 0)
-            moving += node.exponents[k] == 1 && is_affine(program, node.args[k]) ? 1 : 2;
-    return moving == 1;
 }
 
 /// The kinks that may bound a narrow region: those of which a motion may pass two within a short way. One side of
