@@ -320,7 +320,8 @@ struct SquareInRoots {
 
 /// √x · √x = x, and x/√x = √x.
 SquareInRoots square_in_roots(const Program& program, std::span<const Program::Factor> factors) {
-    for (const auto& [id, exponent] : factors) {
+    for (const Program::Factor& root : factors) {
+        const int id = root.first, exponent = root.second;
         if (program[id].op != Op::sqrt || exponent == 0) continue;
         const int below = program[id].args[0];
         const bool is_divided = std::any_of(factors.begin(), factors.end(), [&](const Program::Factor& factor) {
