@@ -111,7 +111,10 @@ TEST_CASE("flat: simulate and sweep begin linkages by joints in a flat pose, at 
 TEST_CASE("flat: bench measures methods from a flat pose") {
     const Json table = json_of({"bench", temporary("flat_bench.toml", by_joints(2, 9)), "--method", "dop853"});
     REQUIRE(table["runs"].size() > 0);
-    for (const Json& one : table["runs"]) CHECK(one["error"].get<double>() < 1e-2);
+    for (const Json& one : table["runs"]) {
+        const double tolerance = one["tolerance"].get<double>();
+        CHECK(one["error"].get<double>() < 10 * tolerance);  // a method's error is of the size of its tolerance
+    }
 }
 
 TEST_CASE("flat: a force with a sign keeps its sign where a linkage passes a singular pose") {

@@ -137,9 +137,9 @@ private:
         return side;
     }
 
-    /// Whether a node is zero where a sign in it changes, as max(0, x) is. With a sign that is held, it goes on to
-    /// negative values, of which a root would have none: a step that passes the zero, and is cut short there,
-    /// could not be taken. The root of its size continues it.
+    /// Whether a node may be zero where a sign in it changes, as max(0, x) and |x| − x are. With a sign that is
+    /// held, it goes on to negative values, of which a root would have none: a step that passes the zero, and is
+    /// cut short there, could not be taken. The root of its size continues it.
     bool may_vanish(int id) const {
         const Node& node = old_[id];
         if (node.is_constant()) return false;

@@ -19,7 +19,7 @@ void Heard::take_in(const Written& written, const WrittenStatement& statement) {
     if (speaks_of_exact_motion(words)) small = false;
     small = small || statement.first_order || speaks_of_first_order(behind);  // … for small angles
     if (holds_letters(words)) take_in_sentence(words, statement.displayed);
-    take_in_conditions(words, is_limit(written, statement, 160));
+    take_in_conditions(words, is_limit(written, statement, within_sentence));
 }
 
 void Heard::take_in_sentence(const std::string& words, bool displayed) {

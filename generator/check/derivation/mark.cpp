@@ -65,7 +65,8 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     for (const WrittenLetter& letter : system.scene().letters)
         letters.emplace(letter.written.text, letter.name.text);
     const Letters plain(system.scene());
-    result.written = with_own_functions(with_products(std::move(result.written), plain), plain);
+    std::vector<std::string> remarks;
+    result.written = with_own_functions(with_products(std::move(result.written), plain), plain, remarks);
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     const Readings readings(system, result.written);
     Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));
@@ -77,7 +78,8 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     result.complete = result.missing.empty();
     result.lines = std::move(marker.lines);
     result.letters = chosen.told;
-    result.remarks = chosen.remarks;
+    result.remarks = std::move(remarks);
+    result.remarks.insert(result.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());
     for (std::string& remark : marker.remarks()) result.remarks.push_back(std::move(remark));
     for (const Letter& letter : settled.authors())
         result.remarks.push_back(say("{} is read as a letter of the author's own", identifier_of(letter)));

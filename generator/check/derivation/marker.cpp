@@ -68,7 +68,7 @@ void Marker::bind_sines_by_index() {
             collect_letters(*side, all);
             if (side->kind == Math::Kind::letter) stated.insert(side->letter);
         }
-    std::map<Letter, ex> values;
+    std::map<Letter, std::pair<ex, std::string>> values;  // and in words
     std::set<std::string> bases;
     for (const auto& item : all) {
         const Letter& letter = item.first;
@@ -83,17 +83,23 @@ void Marker::bind_sines_by_index() {
             letters_.name_of(letter))
             continue;
         ex angle = 0;
+        std::string sum;
         for (const char digit : index) {
             const std::string coordinate = letters_.coordinate_of(std::string(1, digit));
             if (coordinate.empty() || !coordinate.ends_with(digit)) return;
             angle += truth_.value(coordinate);
+            sum += (sum.empty() ? "" : "+") + coordinate;
         }
         bases.insert(is_sine ? "s" : "c");
         if (!stated.contains(letter))
-            values.emplace(letter, is_sine ? ex(GiNaC::sin(angle)) : ex(GiNaC::cos(angle)));
+            values.emplace(letter, is_sine ? std::pair(ex(GiNaC::sin(angle)), "sin(" + sum + ")")
+                                           : std::pair(ex(GiNaC::cos(angle)), "cos(" + sum + ")"));
     }
     if (bases.size() < 2) return;
-    for (const auto& [letter, value] : values) bind(letter, value);
+    for (const auto& [letter, value] : values) {
+        bind(letter, value.first);
+        remarks_.push_back(say("{} is read as {}", identifier_of(letter), value.second));
+    }
 }
 
 void Marker::find_moving_letters() {
@@ -287,7 +293,7 @@ bool Marker::is_of_limit(MarkedLine& line, const Math& lhs) const {
     const auto name = lone.letter != nullptr ? letters_.name_of(lone.letter->letter) : std::nullopt;
     if (!name || !known_.contains(*name) || letters_.is_of_scene(*name) || quantity_of(lone.letter->letter))
         return false;
-    if (!is_limit(written_, *statement_, 60)) return false;
+    if (!is_limit(written_, *statement_, beside_formula)) return false;
     line.status = LineStatus::not_about_scene;
     line.reason = say("the words state a condition for it; lines are judged for all motions");
     return true;

@@ -352,6 +352,7 @@ private:
     std::set<Letter> motion_letters_;      ///< in formulas of one motion: A and B of A cos ω t
     std::vector<std::unique_ptr<RestStates>> states_;  ///< of rest and of steady motion, in all cases and special
     std::set<Letter> state_letters_;                   ///< θ_0 of a coordinate θ
+    std::vector<std::string> remarks_;                 ///< what else was assumed about letters
     std::set<Letter> moving_letters_;                  ///< z_f of z_f = z + a θ, which is no value at one state
     GiNaC::exmap places_;                              ///< their symbols, with the coordinates
     std::vector<GiNaC::ex> rest_relations_;            ///< what lines have shown to vanish at these states

@@ -171,7 +171,6 @@ bool Marker::states_relation_of_constants(const Math& lhs, const Math& rhs) {
 void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (line.status != LineStatus::mistake && line.status != LineStatus::follows) return;
     if (holds_with_slopes(line, lhs, rhs)) return;
-    constexpr std::size_t within_sentence = 160;
     if (is_limit(written_, *statement_, within_sentence)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("the words state a condition for it; lines are judged for all motions");

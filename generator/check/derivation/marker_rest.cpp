@@ -176,7 +176,7 @@ void Marker::know_state_letter(const Letter& letter, const GiNaC::symbol& value)
 }
 
 std::vector<std::string> Marker::remarks() const {
-    std::vector<std::string> result;
+    std::vector<std::string> result = remarks_;
     for (const auto& [letter, coordinate] : places_)
         result.push_back(say("{} is read as the value of {} at a state of rest, in a steady motion or at a start",
                              GiNaC::ex_to<GiNaC::symbol>(letter).get_name(),

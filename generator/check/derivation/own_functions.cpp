@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/language/say.hpp"
 #include "check/derivation/parts.hpp"
 
 namespace alembert {
@@ -67,9 +68,13 @@ private:
 
 }  // namespace
 
-Written with_own_functions(Written written, const Letters& letters) {
+Written with_own_functions(Written written, const Letters& letters, std::vector<std::string>& remarks) {
     const std::set<Letter> functions = own_functions(written, letters);
     if (functions.empty()) return written;
+    for (const Letter& letter : functions)
+        remarks.push_back(
+            say("{} of a coordinate is read as a function of the author's own, not as the scene's {}",
+                identifier_of(letter), letters.name_of(letter).value_or("")));
     const Renaming renaming(functions, letters);
     for (WrittenStatement& statement : written.statements)
         for (MathPtr& side : statement.sides) side = renaming.of(side);

@@ -11,7 +11,7 @@
 
 namespace alembert {
 
-/// Where a line defines such a function. Elsewhere m(φ) may be a product without a sign.
-Written with_own_functions(Written written, const Letters& letters);
+/// Where a line defines such a function. Elsewhere m(φ) may be a product without a sign. `remarks` get which.
+Written with_own_functions(Written written, const Letters& letters, std::vector<std::string>& remarks);
 
 }  // namespace alembert

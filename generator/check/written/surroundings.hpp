@@ -19,6 +19,9 @@ bool is_conditioned_behind(const Written& written, const WrittenStatement& state
 /// begin behind the bracket.
 std::string in_whole_brackets(const std::string& text, std::size_t begin, std::size_t end);
 
+/// How far before a formula a limit may stand, in bytes: just before it, or anywhere in a usual sentence.
+inline constexpr std::size_t beside_formula = 60, within_sentence = 160;
+
 /// Whether its sentence has taken a limit within so many bytes before it: "for $M\to\infty$ we get …".
 bool is_limit(const Written& written, const WrittenStatement& statement, std::size_t most);
 
