@@ -113,7 +113,8 @@ TEST_CASE("flat: bench measures methods from a flat pose") {
     REQUIRE(table["runs"].size() > 0);
     for (const Json& one : table["runs"]) {
         const double tolerance = one["tolerance"].get<double>();
-        CHECK(one["error"].get<double>() < 10 * tolerance);  // a method's error is of the size of its tolerance
+        // of the size of the tolerance, or of rounding, which a flat pose magnifies
+        CHECK(one["error"].get<double>() < 10 * tolerance + 1e-10);
     }
 }
 
