@@ -334,6 +334,8 @@ TEST_CASE("consequences: a force function, a primed constant, the place of a sta
     CHECK(statuses(pendulum,
                    "Ersetzt man die Masse durch einen Stab, folgt $$l\\ddot\\theta + \\frac32 "
                    "g\\sin\\theta = 0$$") != "M");
+    for (const std::string said : {"The angular momentum is conserved: ", "The angular momentum is "})
+        CHECK(statuses(pendulum, said + "$$m l^2\\dot\\theta = \\text{const}$$").back() != 'R');
     CHECK(statuses(pendulum, "If the bob is replaced by a rod, $$l\\ddot\\theta + \\frac32 g\\sin\\theta = 0$$") !=
           "M");
 }

@@ -86,20 +86,20 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& letter, const Ma
             return rows.is_identity(rows.row(stated - momentum)) == true;
         });
     };
+    const bool is_kept = does_not_change(stated);
+    if (!is_kept && (is_word_for_constant(letter.letter.base) || speaks_of_conservation(heard_.around))) {
+        line.status = LineStatus::mistake;
+        line.reason = say("it does not keep its value");
+        return;
+    }
     if (is_among(momenta)) {
         line.status = LineStatus::right;
         line.reason = say("a generalized momentum");
         return;
     }
-    const bool is_kept = does_not_change(stated);
     if (is_among(other_angular_momenta(m, momenta, is_kept))) {
         line.status = LineStatus::right;
         line.reason = say("an angular momentum");
-        return;
-    }
-    if (!is_kept && speaks_of_conservation(heard_.around)) {
-        line.status = LineStatus::mistake;
-        line.reason = say("it does not keep its value");
         return;
     }
     if (is_kept && is_word_for_constant(letter.letter.base)) {
