@@ -931,4 +931,56 @@ TEST_CASE("readings: a force H of a reaction, K := m r² φ', values of states i
                    "0$, as it must be.") == "M-");
 }
 
+const std::string two_masses =
+    "[parameters]\nm = 2\nk = 3\n[coordinates]\nx1 = 0\nx2 = 1\n[energy]\nkinetic = \"m*(x1'^2 + "
+    "x2'^2)/2\"\npotential = \"k*x1^2/2 + k*(x2 - x1)^2/2\"\n";
+
+TEST_CASE("readings: the number of an equation behind one blank or a dash is no factor") {
+    for (const std::string number :
+         {" (7)", " — (7)", " (2.13)", " (5a)", " (ii)", " — (i)", ", (7)", " (*)", ".  (7)"}) {
+        CAPTURE(number);
+        CHECK(statuses(two_masses, "m x1'' + 2 k x1 = k x2" + number + "\n", "page.txt") == "R");
+        CHECK(statuses(two_masses, "$$m\\ddot x_1 + 2 k x_1 = k x_2" + number + "$$") == "R");
+        CHECK(statuses(two_masses, "$m\\ddot x_1 + 2 k x_1 = 3 k x_2" + number + "$") == "M");
+        CHECK(statuses(two_masses, "$m\\ddot x_1 + 2 k x_1 - k x_2 = 0$" + number) == "R");
+    }
+    CHECK(statuses(two_masses, "m x1'' + 2 k x1 = k x2(7)\n", "page.txt").back() != 'R');
+    CHECK(statuses(two_masses, "m x1'' + 2 k x1 = k (x2)\n", "page.txt") == "R");
+    CHECK(statuses(two_masses, "With numbers $m = 1 (2)$.") == "-");
+}
+
+TEST_CASE("readings: c_12 of angles that count from one line is the cosine of their difference") {
+    const std::string pendulums =
+        "[parameters]\nm1 = 1\nm2 = 2\nl1 = 1\nl2 = 0.8\ng = 9.81\n[coordinates]\ntheta1 = 0.5\ntheta2 = "
+        "-0.2\n[energy]\nkinetic = \"(m1 + m2)*l1^2*theta1'^2/2 + m2*l2^2*theta2'^2/2 + "
+        "m2*l1*l2*theta1'*theta2'*cos(theta1 - theta2)\"\npotential = \"-(m1 + m2)*g*l1*cos(theta1) - "
+        "m2*g*l2*cos(theta2)\"\n";
+    const std::string line =
+        "With the short forms $s_1$ and $c_1$, $$T = \\frac12(m_1 + m_2)l_1^2\\dot\\theta_1^2 + \\frac12 m_2 "
+        "l_2^2\\dot\\theta_2^2 + m_2 l_1 l_2 c_{12}\\dot\\theta_1\\dot\\theta_2$$ $$(m_1 + m_2)l_1\\ddot\\theta_1 "
+        "+ m_2 l_2 c_{12}\\ddot\\theta_2 + "
+        "m_2 l_2 s_{12}\\dot\\theta_2^2 + (m_1 + m_2) g ";
+    CHECK(statuses(pendulums, line + "s_1 = 0$$") == "RR");
+    CHECK(statuses(pendulums, line + "2 s_1 = 0$$") == "RM");
+    CHECK(statuses(two_masses, "The springs stretch by s. $$m\\ddot x_1 = -c_1 s_1 + c_2 s_2$$").back() != 'M');
+}
+
+TEST_CASE("readings: what holds nothing and what is not assumed excuses nothing") {
+    const std::string wrong = "\n\n$$m\\ddot x_1 = 2 k x_1 + k x_2$$";
+    for (const std::string words :
+         {"Keeping all terms, the equation of motion is", "The springs holding the block give",
+          "No approximation like $k \\ll m$ is made, and the equation is", "Even as $x_2 \\to 0$ the law is"})
+        CHECK(statuses(two_masses, words + wrong).back() == 'M');
+    CHECK(statuses(two_masses, "Holding the second mass fixed, we get" + wrong).back() != 'M');
+}
+
+TEST_CASE("readings: an angular momentum is made of two lengths") {
+    const std::string orbit =
+        "[parameters]\nm = 1\nk = { value = 3, unit = \"N\" }\n[coordinates]\nr = 1\nphi = 0\n[energy]\nkinetic "
+        "= \"m*(r'^2 + r^2*phi'^2)/2\"\npotential = \"k*r\"\n[[particle]]\nname = \"P\"\nmass = 0\nposition = "
+        "[\"r*cos(phi)\", \"r*sin(phi)\"]\n";
+    CHECK(statuses(orbit, "The angular momentum is $$D = m r^3\\dot\\varphi - m\\varphi\\dot r$$") == "-");
+    CHECK(statuses(orbit, "The angular momentum is $$D = m r^2\\dot\\varphi$$") == "R");
+}
+
 }  // namespace derivation_readings

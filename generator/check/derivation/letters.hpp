@@ -50,6 +50,9 @@ public:
     /// It is the author's own, whatever the scene or mechanics have of that name: only what he says of it counts.
     void leave_to_author(const Letter& letter) { own_.insert(letter); }
     bool is_authors(const Letter& letter) const { return own_.contains(letter); }
+    /// From now on c_{12} is the cosine of the difference of two angles, not of their sum.
+    void read_sines_of_differences() { reads_differences_ = true; }
+    bool reads_sines_of_differences() const { return reads_differences_; }
     const std::set<Letter>& authors() const { return own_; }
     /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be
     /// a quantity of mechanics (∂L/∂q'), even if the scene has a length of this name.
@@ -77,6 +80,7 @@ private:
     std::set<Letter> open_, own_;
     std::set<std::string> scene_names_, functions_, moving_, taken_;
     std::vector<std::string> coordinates_;
+    bool reads_differences_ = false;
 };
 
 }  // namespace alembert

@@ -10,6 +10,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/general_law.hpp"
 #include "check/derivation/parts.hpp"
+#include "check/derivation/sines_by_index.hpp"
 #include "check/written/sentences.hpp"
 #include "check/written/surroundings.hpp"
 #include "check/written/words.hpp"
@@ -58,47 +59,10 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
     bind_sines_by_index();
 }
 
-/// s_1, c_2, s_{12} = sin(θ_1 + θ_2), as books on robots write them, where both sines and cosines stand so and no
-/// line defines them.
 void Marker::bind_sines_by_index() {
-    std::set<Letter> stated;
-    std::map<Letter, int> all;
-    for (const WrittenStatement& statement : written_.statements)
-        for (const MathPtr& side : statement.sides) {
-            collect_letters(*side, all);
-            if (side->kind == Math::Kind::letter) stated.insert(side->letter);
-        }
-    std::map<Letter, std::pair<ex, std::string>> values;  // and in words
-    std::set<std::string> bases;
-    for (const auto& item : all) {
-        const Letter& letter = item.first;
-        const std::string index = [&] {
-            std::string digits = letter.index;
-            std::erase_if(digits, [](char c) { return c == ',' || c == ' '; });
-            return digits;
-        }();
-        const bool is_sine = letter.base == "s" || letter.base == "S",
-                   is_cosine = letter.base == "c" || letter.base == "C";
-        if ((!is_sine && !is_cosine) || !is_count(index) || !letter.accent.empty() || !letter.raised.empty() ||
-            letters_.name_of(letter))
-            continue;
-        ex angle = 0;
-        std::string sum;
-        for (const char digit : index) {
-            const std::string coordinate = letters_.coordinate_of(std::string(1, digit));
-            if (coordinate.empty() || !coordinate.ends_with(digit)) return;
-            angle += truth_.value(coordinate);
-            sum += (sum.empty() ? "" : "+") + coordinate;
-        }
-        bases.insert(is_sine ? "s" : "c");
-        if (!stated.contains(letter))
-            values.emplace(letter, is_sine ? std::pair(ex(GiNaC::sin(angle)), "sin(" + sum + ")")
-                                           : std::pair(ex(GiNaC::cos(angle)), "cos(" + sum + ")"));
-    }
-    if (bases.size() < 2) return;
-    for (const auto& [letter, value] : values) {
-        bind(letter, value.first);
-        remarks_.push_back(say("{} is read as {}", identifier_of(letter), value.second));
+    for (const auto& [letter, value] : sines_by_index(written_, letters_, system_.scene())) {
+        bind(letter, truth_.value(value));
+        remarks_.push_back(say("{} is read as {}", identifier_of(letter), value));
     }
 }
 

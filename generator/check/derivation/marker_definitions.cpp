@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "base/language/say.hpp"
 #include "check/derivation/bindings.hpp"
@@ -12,6 +13,7 @@
 #include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 #include "model/formalism/elements.hpp"
+#include "scene/concluded_dimensions.hpp"
 
 namespace alembert {
 
@@ -54,14 +56,25 @@ namespace {
 
 /// What else than a generalized momentum may be called the angular momentum: x p_y − y p_x; and for a unit of mass
 /// that one and, where it keeps its value, each momentum, as r² φ'.
-std::vector<ex> other_angular_momenta(const Mechanism& m, const std::vector<ex>& momenta, bool is_kept) {
+std::vector<ex> other_angular_momenta(const DerivedSystem& system, const std::vector<ex>& momenta, bool is_kept) {
+    const Mechanism& m = system.mechanism();
+    const Scene& scene = system.scene();
+    std::set<std::string> no_lengths, no_masses;
+    for (const ConcludedDimension& one : concluded_dimensions(scene))
+        if (one.dimension && *one.dimension != Dimension{{"m", 1}}) no_lengths.insert(one.name);
+    for (const Parameter& parameter : scene.parameters)
+        if (const auto dimension = dimension_of_unit(parameter.unit);
+            dimension && *dimension != Dimension{{"kg", 1}})
+            no_masses.insert(parameter.name.text);
     std::vector<ex> result = is_kept ? momenta : std::vector<ex>{};
     for (std::size_t i = 0; i < momenta.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) result.push_back(m.q[j] * momenta[i] - m.q[i] * momenta[j]);
+        for (std::size_t j = 0; j < i; ++j)
+            if (!no_lengths.contains(m.q[i].get_name()) && !no_lengths.contains(m.q[j].get_name()))
+                result.push_back(m.q[j] * momenta[i] - m.q[i] * momenta[j]);
     for (const ex& momentum : std::vector<ex>(result))
         for (const auto& mass : m.parameters) {
             const std::string name = mass.symbol.get_name();
-            if (!name.starts_with("m") && !name.starts_with("M")) continue;
+            if ((!name.starts_with("m") && !name.starts_with("M")) || no_masses.contains(name)) continue;
             const ex of_unit = m.z->pull_back({{momentum, 1}}, {mass.symbol})[0];
             if (m.z->depends(of_unit, m.q) && !m.z->depends(of_unit, {mass.symbol})) result.push_back(of_unit);
         }
@@ -97,7 +110,7 @@ void Marker::hold_against_momenta(MarkedLine& line, const Math& letter, const Ma
         line.reason = say("a generalized momentum");
         return;
     }
-    if (is_among(other_angular_momenta(m, momenta, is_kept))) {
+    if (is_among(other_angular_momenta(system_, momenta, is_kept))) {
         line.status = LineStatus::right;
         line.reason = say("an angular momentum");
         return;

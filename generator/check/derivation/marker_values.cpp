@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/language/say.hpp"
 #include "scene/unit_text.hpp"
@@ -146,7 +147,14 @@ std::optional<ex> Marker::datum_of(const ex& parameter, const Math& stated) {
 
 /// Nothing of what is no real number with these values.
 std::optional<double> Marker::in_numbers(const ex& value, const GiNaC::exmap& values) const {
-    const ex there = system_.mechanism().z->expand(value).subs(values, GiNaC::subs_options::no_pattern).evalf();
+    ex there;
+    try {
+        there = system_.mechanism().z->expand(value).subs(values, GiNaC::subs_options::no_pattern).evalf();
+    } catch (const std::domain_error&) {  // a division by zero, also GiNaC's pole_error
+        return std::nullopt;
+    } catch (const std::overflow_error&) {
+        return std::nullopt;
+    }
     if (!GiNaC::is_a<GiNaC::numeric>(there) || !GiNaC::ex_to<GiNaC::numeric>(there).is_real()) return std::nullopt;
     return GiNaC::ex_to<GiNaC::numeric>(there).to_double();
 }

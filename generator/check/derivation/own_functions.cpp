@@ -17,9 +17,9 @@ bool is_coordinate(const Math& math, const Letters& letters) {
     return name && letters.moves(*name);
 }
 
-/// The letters of parameters of which a line says what they are as functions of a coordinate.
-std::set<Letter> own_functions(const Written& written, const Letters& letters) {
-    std::set<Letter> result;
+/// The letters of parameters of which a line says what they are as functions of a coordinate, with its letter.
+std::map<Letter, Letter> own_functions(const Written& written, const Letters& letters) {
+    std::map<Letter, Letter> result;
     for (const WrittenStatement& statement : written.statements) {
         if (statement.sides.size() < 2) continue;
         const Math& side = *statement.sides[0];
@@ -30,14 +30,14 @@ std::set<Letter> own_functions(const Written& written, const Letters& letters) {
             continue;
         std::map<Letter, int> other;
         collect_letters(*statement.sides[1], other);
-        if (other.contains(side.args[0]->letter)) result.insert(side.letter);
+        if (other.contains(side.args[0]->letter)) result.emplace(side.letter, side.args[0]->letter);
     }
     return result;
 }
 
 class Renaming {
 public:
-    Renaming(std::set<Letter> functions, const Letters& letters)
+    Renaming(std::map<Letter, Letter> functions, const Letters& letters)
         : functions_(std::move(functions)), letters_(letters) {}
 
     MathPtr of(const MathPtr& math) const {
@@ -57,24 +57,25 @@ public:
     }
 
 private:
-    static Letter named(Letter letter) {
-        letter.raised = "function";
+    /// m of m(φ) in messages: m_of_phi
+    Letter named(Letter letter) const {
+        letter.raised = "of_" + identifier_of(functions_.at(letter));
         return letter;
     }
 
-    std::set<Letter> functions_;
+    std::map<Letter, Letter> functions_;
     const Letters& letters_;
 };
 
 }  // namespace
 
 Written with_own_functions(Written written, const Letters& letters, std::vector<std::string>& remarks) {
-    const std::set<Letter> functions = own_functions(written, letters);
+    const std::map<Letter, Letter> functions = own_functions(written, letters);
     if (functions.empty()) return written;
-    for (const Letter& letter : functions)
-        remarks.push_back(
-            say("{} of a coordinate is read as a function of the author's own, not as the scene's {}",
-                identifier_of(letter), letters.name_of(letter).value_or("")));
+    for (const auto& [letter, coordinate] : functions)
+        remarks.push_back(say("{}({}) is read as a function of the author's own, not as the scene's {}",
+                              identifier_of(letter), identifier_of(coordinate),
+                              letters.name_of(letter).value_or("")));
     const Renaming renaming(functions, letters);
     for (WrittenStatement& statement : written.statements)
         for (MathPtr& side : statement.sides) side = renaming.of(side);

@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/claim_text.hpp"
 #include "check/derivation/marker.hpp"
+#include "check/derivation/sines_by_index.hpp"
 #include "check/written/word_kinds.hpp"
 #include "check/written/words.hpp"
 
@@ -79,6 +80,10 @@ bool is_linear_in_rates(const Math& math) {
 std::ptrdiff_t mistakes(const std::vector<MarkedLine>& lines) {
     return std::count_if(lines.begin(), lines.end(),
                          [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
+}
+
+std::ptrdiff_t rights(const std::vector<MarkedLine>& lines) {
+    return std::count_if(lines.begin(), lines.end(), [](const MarkedLine& line) { return is_right(line.status); });
 }
 
 /// p_φ = (J + m R² sin² θ) φ' = K, K = m (u v' − v u') = const: a chain in which the letter is a momentum or keeps
@@ -197,6 +202,12 @@ std::vector<MarkedLine> Readings::marked_with(const Letters& letters) const {
     return std::move(marker.lines);
 }
 
+bool Readings::has_sines_of_two_angles(const Letters& letters) const {
+    const auto sines = sines_by_index(written_, letters, system_.scene());
+    return std::any_of(sines.begin(), sines.end(),
+                       [](const auto& item) { return item.second.find('+') != std::string::npos; });
+}
+
 Readings::Uses Readings::uses(const std::vector<MarkedLine>& lines, std::size_t k, const Letter& letter) const {
     Uses result;
     for (std::size_t i = k + 1; i < lines.size(); ++i) {
@@ -234,6 +245,16 @@ std::optional<Letter> Readings::perhaps_defined(const std::vector<MarkedLine>& l
 
 Letters Readings::settle(Letters letters, const std::set<Letter>& given) const {
     std::vector<MarkedLine> lines = marked_with(letters);
+    if (mistakes(lines) > 0 && has_sines_of_two_angles(letters)) {
+        Letters other = letters;
+        other.read_sines_of_differences();
+        std::vector<MarkedLine> otherwise = marked_with(other);
+        const auto falseness = [](const auto& all) { return std::pair(mistakes(all), -rights(all)); };
+        if (falseness(otherwise) < falseness(lines)) {
+            letters = std::move(other);
+            lines = std::move(otherwise);
+        }
+    }
     int tried = 0;
     for (std::size_t k = 0; k < lines.size() && tried < most_tried; ++k) {
         const std::optional<Letter> letter = perhaps_defined(lines, k, letters, given);

@@ -43,6 +43,7 @@ private:
     std::optional<Letter> perhaps_defined(const std::vector<MarkedLine>& lines, std::size_t k,
                                           const Letters& letters, const std::set<Letter>& given) const;
     std::vector<MarkedLine> marked_with(const Letters& letters) const;
+    bool has_sines_of_two_angles(const Letters& letters) const;
 
     DerivedSystem& system_;
     const Written& written_;

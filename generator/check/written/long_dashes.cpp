@@ -5,11 +5,13 @@
 #include <string>
 
 #include "check/written/commands.hpp"
+#include "check/written/equation_number.hpp"
 
 namespace alembert {
 
 bool LongDashes::is_minus(std::size_t i) const {
     if (!is_dash(i) || i == 0 || i + 1 >= tokens_.size() || is_dash(i + 1) || is_dash(i - 1)) return false;
+    if (before_equation_number(tokens_, 0, tokens_.size()) == i) return false;
     if (is_any_of(i - 1, {Kind::relation, Kind::open})) return is_term_from(i + 1);
     if (depth_before(i) > 0) return true;
     const bool has_before = count_relations(0, i) > 0, has_behind = count_relations(i, tokens_.size()) > 0;
@@ -21,7 +23,7 @@ bool LongDashes::is_minus(std::size_t i) const {
 }
 
 bool LongDashes::is_dash(std::size_t i) const {
-    return tokens_[i].kind == Kind::stray && source_(i) == "—";
+    return is_long_dash(tokens_[i]);
 }
 bool LongDashes::is_any_of(std::size_t i, std::initializer_list<Kind> kinds) const {
     return std::find(kinds.begin(), kinds.end(), tokens_[i].kind) != kinds.end();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/language/say.hpp"
+#include "check/written/equation_number.hpp"
 #include "check/written/parser.hpp"
 #include "check/written/rows.hpp"
 #include "check/written/tex_groups.hpp"
@@ -106,6 +107,10 @@ private:
         return kind(part.begin + 1) == PartKind::number || kind(part.begin + 1) == PartKind::times || length == 3;
     }
 
+    void end_before_punctuation(Part& part) const {
+        while (part.end > part.begin && is_punctuation(kind(part.end - 1))) --part.end;
+    }
+
     /// A space divides only what are two statements; the number of an equation and what is empty go.
     void join_parts() {
         std::vector<Part> joined;
@@ -113,7 +118,9 @@ private:
         for (Part& part : parts_) {
             if (part.before == PartKind::space && divider != PartKind::end) part.before = divider;
             divider = PartKind::end;
-            while (part.end > part.begin && is_punctuation(kind(part.end - 1))) --part.end;
+            end_before_punctuation(part);
+            part.end = before_equation_number(tokens_, part.begin, part.end);
+            end_before_punctuation(part);
             const bool is_space = part.before == PartKind::space;
             if (is_space && is_number_of_equation(part)) continue;
             const bool goes_on = is_space && !joined.empty() && !joined.back().is_condition &&

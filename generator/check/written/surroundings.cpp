@@ -5,6 +5,8 @@
 #include <set>
 #include <string_view>
 
+#include "check/written/words.hpp"
+
 namespace alembert {
 
 std::string words_behind(const Written& written, const WrittenStatement& statement) {
@@ -84,6 +86,7 @@ bool is_limit(const Written& written, const WrittenStatement& statement, std::si
     before.resize(before.find_last_not_of(" \t\r\n$[\\") + 1);  // what opens a display
     for (const char* const stop : {". ", ".\n", "。", "\n\n"})
         if (const std::size_t end = before.rfind(stop); end != std::string::npos) before.erase(0, end + 1);
+    if (denies_limit(before)) return false;
     static constexpr const char* limits[] = {
         "\\gg",  "\\ll", "≫",           "≪",    ">>",  "<<",   "\\infty", "∞",  "\\to 0",        "\\to0",
         "-> oo", "->oo", "-> infinity", "-> 0", "->0", "→ oo", "→ 0",     "→0", "\\rightarrow 0"};

@@ -18,6 +18,9 @@ bool speaks_of_consequence(std::string_view words);
 /// "small angles", "linearize", "first order".
 bool speaks_of_first_order(std::string_view words);
 
+/// "No approximation like c ≪ … is made", "even as x → 0": the limit in the sentence is not taken.
+bool denies_limit(std::string_view sentence);
+
 /// "The exact equation", "for arbitrary angles": it is no longer linearized.
 bool speaks_of_exact_motion(std::string_view words);
 

@@ -128,6 +128,16 @@ bool is_small_alone(const std::string& sentence) {
 
 }  // namespace
 
+bool denies_limit(std::string_view sentence) {
+    return has_phrase(
+        in_lower_case(sentence),
+        "no approximation*|without approximation*|without any approximation*|no assumption*|not assume*|not made|"
+        "need not be|not necessarily|even as|even for|even if|ohne näherung*|ohne eine näherung|keine näherung*|"
+        "nicht voraus*|nicht angenommen|sans approximation*|sans hypothèse*|sin aproxim*|senza approssim*|"
+        "sem aproxim*|bez przybliż*|utan approximation*|utan antagande*|без приближени*|近似しない*|近似せず*|"
+        "不作近似*|不作任何近似*|无需近似*|没有近似*|未作近似*");
+}
+
 bool speaks_of_first_order(std::string_view words) {
     const std::string lower = in_lower_case(words);
     for (std::size_t begin = 0; begin < lower.size();) {

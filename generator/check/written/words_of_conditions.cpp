@@ -75,8 +75,11 @@ bool states_condition(std::string_view words) {
         "står stilla|försvinner|закреплён*|закреплен*|неподвижен|неподвижна|неподвижно|неподвижны|не движется|"
         "не вращается|покоится|находится в покое|удержива*|обращается в нуль|обращается в ноль|заторможен*|"
         "動かない*|静止している*|静止していれば*|回らない*|回転しない*|止まって*|0になる*");
-    const bool is_holding = has_phrase(
-        sentence, "holding|hold the|being held|being blocked|being clamped|keeping|hält man|wird*festgehalten");
+    const bool is_holding =
+        has_phrase(sentence, "hold the|being held|being blocked|being clamped|hält man|wird*festgehalten") ||
+        (has_phrase(sentence,
+                    "holding|keeping") &&  // "keeping all terms" and "the springs holding it" hold nothing
+         has_phrase(sentence, "fixed|fast|constant|still|at rest|at zero|clamped|locked|in place"));
     return is_holding || (is_conditional && holds_something);
 }
 
