@@ -983,4 +983,42 @@ TEST_CASE("readings: an angular momentum is made of two lengths") {
     CHECK(statuses(orbit, "The angular momentum is $$D = m r^2\\dot\\varphi$$") == "R");
 }
 
+const std::string hoisting =
+    "gravity = [0, \"-g\"]\n[parameters]\nm = 5\nA = 0.4\ng = 9.81\n[inputs]\ns = \"A*t^2/2\"\nW = \"50000 + "
+    "0*t\"\n[coordinates]\ntheta = 0\nl = 12\n[[particle]]\nname = \"load\"\nmass = \"m\"\nposition = [\"s + "
+    "l*sin(theta)\", \"-l*cos(theta)\"]\n[forces]\nl = \"-W\"\n";
+
+TEST_CASE("readings: rates that are zero are meant in the line behind them") {
+    const std::string line = "$$l\\ddot\\theta = -g\\sin\\theta - A\\cos\\theta$$";
+    for (const std::string words :
+         {"Rope of constant length ($\\dot l = 0$): ", "Fune di lunghezza costante ($\\dot l = \\ddot l = 0$): ",
+          "Rope of constant length, $\\dot l = 0$. Then ", "At the start of the motion, $\\dot l = 0$: "}) {
+        CAPTURE(words);
+        CHECK(statuses(hoisting, words + line).back() == 'R');
+    }
+    CHECK(statuses(hoisting, line) == "M");
+    CHECK(statuses(hoisting, "At the start $\\dot l = 0$. The load then swings by " + line).back() == 'M');
+    CHECK(statuses(two_masses, "Now $\\dot x_1 = 0$: $$p_1 = 2 m\\dot x_1$$").back() == 'M');
+    CHECK(statuses(hoisting, "Near $\\theta = 0$: $$l\\ddot\\theta + 2\\dot l\\dot\\theta = 2 g\\theta - A$$")
+              .back() != 'R');
+}
+
+TEST_CASE("readings: an index that runs stands for all numbers of the scene") {
+    const std::string masses =
+        "[parameters]\nm1 = 2\nm2 = 5\nk = 3\n[coordinates]\nx1 = 0\nx2 = 1\n[energy]\nkinetic = \"m1*x1'^2/2 + "
+        "m2*x2'^2/2\"\npotential = \"k*x1^2/2 + k*(x2 - x1)^2/2\"\n";
+    const std::string words = "With $v_i = \\dot x_i$ and $a_i = \\ddot x_i$ ";
+    CHECK(statuses(masses, words + "$$m_1\\dot v_1 = k(x_2 - 2 x_1)$$").back() == 'R');
+    CHECK(statuses(masses, words + "$$m_1\\dot v_1 = k(x_2 - x_1)$$").back() == 'M');
+    CHECK(statuses(masses, "$$p_i = m_i\\dot x_i$$") == "R");
+    CHECK(statuses(masses, "$$p_i = 2 m_i\\dot x_i$$") == "M");
+    CHECK(statuses(masses, "$$\\frac{\\partial T}{\\partial\\dot x_i} = m_1\\dot x_i$$") == "M");  // not of m_2
+}
+
+TEST_CASE("readings: a question and a condition claim nothing") {
+    CHECK(statuses(two_masses, "Does $m\\ddot x_1 = k x_2$ hold for small amplitudes only?") == "-");
+    CHECK(statuses(two_masses, "I get $m\\ddot x_1 = k x_2$. Is that right?") == "M");
+    CHECK(statuses(two_masses, "Newton: $$m\\ddot x_1 = F$$ $F = 0$ gives the place of rest.").back() == '-');
+}
+
 }  // namespace derivation_readings

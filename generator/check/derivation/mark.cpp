@@ -9,6 +9,7 @@
 #include "check/derivation/marker.hpp"
 #include "check/derivation/own_functions.hpp"
 #include "check/derivation/readings.hpp"
+#include "check/derivation/running_indices.hpp"
 
 namespace alembert {
 
@@ -66,7 +67,8 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
         letters.emplace(letter.written.text, letter.name.text);
     const Letters plain(system.scene());
     std::vector<std::string> remarks;
-    result.written = with_own_functions(with_products(std::move(result.written), plain), plain, remarks);
+    result.written = with_own_functions(
+        with_running_indices(with_products(std::move(result.written), plain), plain), plain, remarks);
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     const Readings readings(system, result.written);
     Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));
@@ -77,6 +79,7 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
     result.missing = marker.missing();
     result.complete = result.missing.empty();
     result.lines = std::move(marker.lines);
+    join_copies(result.lines, result.written);
     result.letters = chosen.told;
     result.remarks = std::move(remarks);
     result.remarks.insert(result.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());

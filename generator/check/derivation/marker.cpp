@@ -133,7 +133,9 @@ void Marker::run() {
         if (statement_->sides.size() == 1) continue;  // a letter among the words of the next one
         special_.hear(statement_->words);
         hear_special_values(statement_->words);
-        if (ends_sentence(statement_->words) || statement_->displayed) stated_place_.clear();
+        const bool is_behind_display = s > 0 && written_.statements[s - 1].displayed;
+        if (is_behind_display || (ends_sentence(statement_->words) && !goes_on_with_case(statement_->words)))
+            stated_place_.clear();
         special_.hear_end(statement_->words);
         said_before_ = heard_.around;
         heard_.take_in(written_, *statement_);
@@ -151,6 +153,7 @@ void Marker::run() {
             continue;
         }
         for (std::size_t k = 0; k + 1 < statement_->sides.size(); ++k) line(s, k);
+        note_rates();
     }
 }
 

@@ -168,9 +168,10 @@ private:
     bool holds_to_digits(const Sides& sides);
     bool vanishes_at(const GiNaC::ex& residual, const GiNaC::exmap& place) const;
     bool holds_from_start(const GiNaC::ex& residual);
-    bool holds_at_stated_place(const GiNaC::ex& residual);
+    bool holds_at_stated_place(const Sides& sides);
     bool holds_where_held(const GiNaC::ex& residual);
     void note_place(const Math& lhs, const Math& rhs);
+    void note_rates();
     bool holds_function_of_state(const Math& math) const;
     bool is_refuted_at_state(MarkedLine& line, const GiNaC::ex& residual, const RestStates::About& there,
                              bool is_of_motion);

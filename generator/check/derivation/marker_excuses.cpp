@@ -198,7 +198,15 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         notes_.back().claim = {};
         return;
     }
-    if (holds_at_stated_place(truth_.value(sides.left.text) - truth_.value(sides.right.text))) {
+    if (!statement_->displayed && rhs.kind == Kind::number && rhs.text == "0" &&
+        sets_a_condition_behind(heard_.behind)) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("it describes a state; lines are judged for all motions");
+        line.follows_from.reset();
+        notes_.back().claim = {};
+        return;
+    }
+    if (holds_at_stated_place(sides)) {
         line.status = LineStatus::right;
         line.reason = is_place_held_ ? say("held where {}", told_values(stated_place_))
                                      : say("where {}", told_values(stated_place_));

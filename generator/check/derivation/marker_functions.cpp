@@ -139,8 +139,7 @@ bool Marker::holds_with_slopes(MarkedLine& line, const Math& lhs, const Math& rh
     if (left == whole && right == other) return false;
     const Sides sides = sides_of(*left, *right);
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-    const bool holds =
-        system_.rows().holds(system_.rows().row(residual)) == true || holds_at_stated_place(residual);
+    const bool holds = system_.rows().holds(system_.rows().row(residual)) == true || holds_at_stated_place(sides);
     const bool is_of_rest = heard_.assumed_rest || says_rest() || rhs.kind == Kind::number;
     if (!holds && !(is_of_rest && is_of_rest_unsaid(line, sides))) return false;
     line.status = line.status == LineStatus::not_about_scene ? line.status : LineStatus::right;
@@ -193,6 +192,25 @@ void Marker::note_place(const Math& lhs, const Math& rhs) {
     }
 }
 
+/// "Of constant length (l' = l'' = 0)": the rates of which the sentence goes on to speak.
+void Marker::note_rates() {
+    const std::vector<MathPtr>& sides = statement_->sides;
+    const Mechanism& m = system_.mechanism();
+    if (statement_->displayed || sides.size() < 2 || sides.back()->kind != Kind::number ||
+        sides.back()->text != "0")
+        return;
+    GiNaC::exmap rates;
+    for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+        const auto name = sides[k]->kind == Kind::letter ? letters_.name_of(sides[k]->letter) : std::nullopt;
+        const auto q = std::find_if(m.q.begin(), m.q.end(),
+                                    [&](const GiNaC::symbol& one) { return name && one.get_name() == *name; });
+        if (q == m.q.end() || sides[k]->dots < 1 || sides[k]->dots > 2) return;
+        const auto i = static_cast<std::size_t>(q - m.q.begin());
+        rates[sides[k]->dots == 1 ? m.qdot[i] : m.qddot[i]] = 0;
+    }
+    stated_place_.insert(rates.begin(), rates.end());
+}
+
 /// False too where something is divided by zero there.
 bool Marker::vanishes_at(const ex& residual, const GiNaC::exmap& place) const try {
     const Mechanism& m = system_.mechanism();
@@ -212,10 +230,20 @@ bool Marker::holds_from_start(const ex& residual) {
     return vanishes_at(residual, start) && does_not_change(residual);
 }
 
-/// Whether the line follows from the equations at the place of the sentence.
-bool Marker::holds_at_stated_place(const ex& residual) {
-    if (stated_place_.empty()) return false;
-    return vanishes_at(residual, stated_place_) || follows_with(residual, stated_place_) ||
+/// Whether the line follows from the equations at the place of the sentence. A display behind it is of the rates
+/// that are zero, not of a place, near which it may be meant; what says there only that nothing is nothing,
+/// T = m x'² at x' = 0, is not of that state.
+bool Marker::holds_at_stated_place(const Sides& sides) {
+    const Mechanism& m = system_.mechanism();
+    GiNaC::exmap place = stated_place_;
+    if (statement_->displayed)
+        for (const GiNaC::symbol& q : m.q) place.erase(q);
+    if (place.empty()) return false;
+    const ex left = truth_.value(sides.left.text), right = truth_.value(sides.right.text), residual = left - right;
+    if (statement_->displayed && vanishes_at(left, place) && vanishes_at(right, place)) return false;
+    GiNaC::exmap state = place;  // l' = l'' = 0 is a condition on the forces too, of which the line need not speak
+    for (const GiNaC::symbol& acceleration : m.qddot) state.erase(acceleration);
+    return vanishes_at(residual, place) || follows_with(residual, place) || follows_with(residual, state) ||
            (is_place_held_ && holds_where_held(residual));
 }
 

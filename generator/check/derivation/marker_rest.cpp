@@ -268,7 +268,7 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
         line.reason = say("of the motion that starts there from rest");
         return true;
     }
-    if (is_wrong_energy_of_start(residual, lhs, rhs)) {
+    if (special_.empty() && is_wrong_energy_of_start(residual, lhs, rhs)) {  // "the ladder alone (m = 0)"
         line.status = LineStatus::mistake;
         line.reason = say("it does not hold on the motion that starts there from rest");
         notes_.back().is_sure = true;

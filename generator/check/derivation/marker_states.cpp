@@ -192,6 +192,8 @@ bool Marker::is_of_state(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (heard_.condition_behind)
         return tell(say("the words state a condition for it; lines are judged for all motions"));
     if (denies(statement_->words)) return tell(say("the words say that it does not hold"));
+    if (!statement_->displayed && asks(statement_->words, heard_.behind))
+        return tell(say("the words ask whether it holds"));
     if (speaks_of_numbered_equations(written_.text.substr(statement_->offset, statement_->length)))
         return tell(say("it speaks of equations by their numbers"));
     if (says_rest() && is_lone_force(lhs) && rhs.kind == Kind::number && rhs.text == "0")

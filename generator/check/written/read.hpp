@@ -40,6 +40,7 @@ struct WrittenStatement {
     bool in_words = false;     ///< whether its first side stands in words: "the kinetic energy is"
     bool displayed = false;    ///< in a display or a line of its own, not among words
     bool first_order = false;  ///< the words before it, in its paragraph, speak of small angles or of linearizing
+    bool is_copy = false;      ///< the formula before it, with another number for an index that runs
     bool consequence = false;  ///< \implies, \Rightarrow, "therefore", "hence", "so" stand before it
 };
 

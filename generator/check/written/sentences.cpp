@@ -157,6 +157,15 @@ bool joins_formulas(std::string_view words) {
     return letters < (is_han ? longest_in_han : longest) && !ends_sentence(words);
 }
 
+bool goes_on_with_case(std::string_view words) {
+    std::string sentence = last_sentence(words);
+    sentence.erase(0, std::min(sentence.find_first_not_of(" $"), sentence.size()));
+    static constexpr std::string_view beginnings[] = {"then",  "dann", "alors", "entonces", "allora", "então",
+                                                      "wtedy", "då ",  "тогда", "则",       "那么",   "このとき"};
+    return std::any_of(std::begin(beginnings), std::end(beginnings),
+                       [&](std::string_view beginning) { return sentence.starts_with(beginning); });
+}
+
 bool begins_sentence(std::string_view words) {
     if (words.empty()) return false;
     const std::string_view first = words.substr(0, begins_wide_letter(words.front()) ? 2 : 1);

@@ -43,6 +43,9 @@ bool holds_sentence(std::string_view words);
 /// Whether they only join two formulas of one sentence: "or", "so".
 bool joins_formulas(std::string_view words);
 
+/// Whether they end a sentence and only go on with its case: ". Then", "。则".
+bool goes_on_with_case(std::string_view words);
+
 /// Whether they begin with a capital letter, and so a sentence of their own.
 bool begins_sentence(std::string_view words);
 

@@ -413,6 +413,25 @@ bool speaks_of_constraint(std::string_view words) {
         "すべりなし*");
 }
 
+bool sets_a_condition_behind(std::string_view behind) {
+    std::string words = in_lower_case(behind.substr(0, end_of_first_sentence(behind, 0)));
+    words.erase(0, std::min(words.find_first_not_of(" ,$"), words.size()));
+    static constexpr std::string_view beginnings[] = {
+        "gives ",   "yields ", "requires ", "happens ", "when ", "if ",    "at ",
+        "liefert ", "ergibt ", "donne ",    "da ",      "dà ",   "dá ",    "daje ",
+        "ger ",     "даёт ",   "дает ",     "得",       "时",    "すると", "より"};
+    return std::any_of(std::begin(beginnings), std::end(beginnings),
+                       [&](std::string_view beginning) { return words.starts_with(beginning); });
+}
+
+bool asks(std::string_view before, std::string_view behind) {
+    const std::size_t end = end_of_first_sentence(behind, 0);
+    const std::size_t mark = std::min(behind.find('?'), behind.find("？"));
+    return mark < end + 1 &&
+           has_phrase(last_sentence(before),
+                      "does|do|whether|gilt|gelten|est-ce que|vale|valen|valgono|czy|gäller|верно ли|是否*");
+}
+
 bool denies(std::string_view words) {
     if (ends_with_word(words, {"not", "nicht", "而不是", "并非", "et non", "y no", "e non", "e não", "a nie",
                                "och inte", "а не"}))

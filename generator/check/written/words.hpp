@@ -157,4 +157,10 @@ bool speaks_of_constraint(std::string_view words);
 /// "It is not true that": what follows is no claim.
 bool denies(std::string_view words);
 
+/// "N = 0 gives cos θ = …": the words behind a formula go on from it as from a condition.
+bool sets_a_condition_behind(std::string_view behind);
+
+/// "Does … hold only for small angles?": the words before and behind a formula make a question of its sentence.
+bool asks(std::string_view before, std::string_view behind);
+
 }  // namespace alembert

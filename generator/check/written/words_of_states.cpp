@@ -179,7 +179,7 @@ bool speaks_of_start(std::string_view words) {
     return speaks_of_start_from_rest(words) ||
            has_phrase(
                in_lower_case(words),
-               "starts at|started at|is started|released|release|let go|thrown|initially|at "
+               "starts at|started at|is started|released|release|let go|thrown|initially|at the start|at "
                "the beginning|losgelassen|anfangs|anfänglich*|am anfang|zu beginn|lâché*|abandonné*|"
                "initialement|au départ|se suelta|inicialmente|al principio|lasciat*|rilasciat*|inizialmente|"
                "largad*|solt*|no início|puszczon*|początkowo|na początku|släpps|释放*|初始*|开始时*|起始*|"
