@@ -1021,4 +1021,60 @@ TEST_CASE("readings: a question and a condition claim nothing") {
     CHECK(statuses(two_masses, "Newton: $$m\\ddot x_1 = F$$ $F = 0$ gives the place of rest.").back() == '-');
 }
 
+TEST_CASE("readings: {\\rm sen}, \\eqno and numbers behind the lines of a formula that goes on") {
+    const std::string pendulum =
+        "[parameters]\nm = 2\nl = 1\ng = 9.81\n[coordinates]\ntheta = 0.3\n[energy]\nkinetic = "
+        "\"m*l^2*theta'^2/2\"\npotential = \"-m*g*l*cos(theta)\"\n";
+    CHECK(statuses(pendulum, "$$l\\ddot\\theta + g\\,{\\rm sen}\\,\\theta = 0 \\eqno(7)$$") == "R");
+    CHECK(statuses(pendulum, "$$l\\ddot\\theta - g\\,{\\rm sen}\\,\\theta = 0 \\eqno(7)$$") == "M");
+    const std::string chain =
+        "   L = T - V      (4)\n     = 1/2 m l^2 theta'^2 + m g l cos(theta)   (5)\n     = m l ( l theta'^2/2 ";
+    CHECK(statuses(pendulum, chain + "+ g cos(theta) )   (6)\n", "page.txt") == "RRR");
+    CHECK(statuses(pendulum, chain + "- g cos(theta) )   (6)\n", "page.txt") == "RRM");
+}
+
+TEST_CASE("readings: a wrong definition is the mistake where one change of it explains a later line") {
+    const std::string bar =
+        "[parameters]\nm = 2\nl = 0.8\na = 0.3\nk = 400\ng = 9.81\nd0 = 0.1\n[coordinates]\ntheta = "
+        "0.1\n[energy]\nkinetic = \"m*l^2*theta'^2/6\"\npotential = \"-m*g*l/2*sin(theta) + k*(d0 + "
+        "a*sin(theta))^2/2\"\n";
+    const auto with = [&](const std::string& arm) {
+        return statuses(bar,
+                        "The spring is stretched by $$\\delta = d_0 + " + arm +
+                            "\\sin\\theta.$$ Hence $$V = -\\frac12 m g l\\sin\\theta + \\frac12 k\\delta^2.$$");
+    };
+    CHECK(with("a") == "DR");
+    CHECK(with("l") == "MF");
+}
+
+TEST_CASE("readings: an approximation of an energy that is wrong at an order that is written") {
+    const std::string two =
+        "[parameters]\nm = 2\nl = 0.8\ng = 9.81\n[coordinates]\na = 0.1\nb = 0.2\n[energy]\nkinetic = "
+        "\"m*l^2*(a'^2 + b'^2)/2\"\npotential = \"-m*g*l*(2*cos(a) + cos(b))\"\n";
+    const std::string line = "For small angles $$V \\approx -3 m g l + \\tfrac12 m g l";
+    CHECK(statuses(two, line + "(2 a^2 + b^2)$$") == "R");
+    CHECK(statuses(two, line + "(a^2 + b^2)$$") == "M");
+    CHECK(statuses(two, "For small angles $$V \\approx \\tfrac12 m g l(2 a^2 + b^2)$$") == "R");
+}
+
+TEST_CASE("readings: second derivatives of effective potentials, at a place too") {
+    const std::string puck =
+        "[parameters]\nm = 1\nM = 2\ng = 9.81\n[coordinates]\nr = 1\ntheta = { initial = 0, rate = 3 "
+        "}\n[energy]\nkinetic = \"(m + M)*r'^2/2 + m*r^2*theta'^2/2\"\npotential = \"M*g*r\"\n";
+    const std::string words =
+        "With $\\dot\\theta = p/(m r^2)$ the effective potential is $$U(r) = \\frac{p^2}{2 m r^2} + M g r.$$ Then "
+        "$$";
+    for (const std::string side : {"\\frac{d^2U}{dr^2} = ", "U''(r) = "}) {
+        CHECK(statuses(puck, words + side + "\\frac{3p^2}{m r^4}$$") == "DDR");
+        CHECK(statuses(puck, words + side + "\\frac{2p^2}{m r^4}$$") == "DDM");
+    }
+    CHECK(statuses(puck, words + "U''(r_0) = \\frac{3p^2}{m r_0^4}$$") == "DDR");
+    CHECK(statuses(puck, words + "U''(r_0) = \\frac{2p^2}{m r_0^4}$$").back() != 'R');
+}
+
+TEST_CASE("readings: the centre that moves on a circle is no special motion") {
+    CHECK(statuses(two_masses, "The centre moves on a circle of radius $a$. $$m\\ddot x_1 = k x_2$$").back() ==
+          'M');
+}
+
 }  // namespace derivation_readings

@@ -120,9 +120,12 @@ std::optional<WrittenOrder> agree_to_written_order(const ex& left, const ex& rig
     int order = most + 1;
     while (order > 0 && is_identically_zero(of_right[static_cast<std::size_t>(order)], m)) --order;
     if (order == 0 || order > most) return std::nullopt;
+    ex polynomial = 0;
+    for (int k = order; k >= 0; --k)
+        polynomial += of_left[static_cast<std::size_t>(k)] / GiNaC::factorial(GiNaC::numeric(k));
     for (std::size_t k = up_to_constant ? 1 : 0; k <= static_cast<std::size_t>(order); ++k)
-        if (!is_identically_zero(of_left[k] - of_right[k], m)) return WrittenOrder{order, false};
-    return WrittenOrder{order, true};
+        if (!is_identically_zero(of_left[k] - of_right[k], m)) return WrittenOrder{order, false, polynomial};
+    return WrittenOrder{order, true, polynomial};
 }
 
 std::optional<ex> linear_part(const ex& residual, const BaseState& base, const DerivedSystem& system) {

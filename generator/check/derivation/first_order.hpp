@@ -40,6 +40,7 @@ bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool 
 struct WrittenOrder {
     int order = 0;
     bool agrees = true;
+    GiNaC::ex left = 0;  ///< the left side to this order
 };
 
 /// Whether both sides of 1 − cos θ ≈ θ²/2 agree up to the order to which the right one is written, where the

@@ -51,6 +51,7 @@ struct LineNotes {
     bool rates_are_speeds = false;           ///< likewise
     bool slopes_are_of_motion = false;       ///< likewise
     bool differentials_are_rates = false;    ///< likewise
+    std::optional<GiNaC::ex> expanded = {};  ///< of an approximation, the left side to the order that is written
     std::optional<BaseState> near = {};      ///< about which the derivation linearizes there
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
@@ -249,6 +250,7 @@ private:
     GiNaC::ex kept_of(const Math& lhs, const Math& rhs);
     bool does_not_change(const GiNaC::ex& expression);
     bool keeps_its_start(const Math& lhs, const Math& rhs);
+    bool is_of_derivative_at_place(const Math& side) const;
     bool is_wrong_energy_of_start(const GiNaC::ex& residual, const Math& lhs, const Math& rhs);
     void note_start(const GiNaC::ex& kept);
     bool follows_from_start(const Math& lhs, const Math& rhs);
@@ -304,6 +306,8 @@ private:
     std::map<std::string, GiNaC::ex> known_in_motion() const;
     std::map<std::string, GiNaC::ex> known_to_check() const;
     std::optional<LineClaim> from_start_of_chain(const MarkedLine& line) const;
+    void find_slip_of_approximation(MarkedLine& line, const LineNotes& notes);
+    bool is_of_wrong_definition(std::size_t k, const std::map<std::string, GiNaC::ex>& known);
     void find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     void seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     bool is_plausible(const std::optional<Slip>& slip, const LineClaim& claim);

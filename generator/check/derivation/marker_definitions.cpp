@@ -255,6 +255,7 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     truth_.know(name, *truth);
     if (is_constant_of_potential(line, sides, letter, *truth)) return true;
     own_.state(name, own.value_or(*truth), own_.wrong_in(sides.own_names()));
+    if (m.z->depends(*truth, m.qdot) && does_not_change(*truth)) kept_.insert(name);  // φ' = p/(m r²)
     note_base(lhs, rhs, letter);
     line.status = LineStatus::definition;  // it may absorb any slip
     line.claim = sides.left.text + " = " + sides.right.text;

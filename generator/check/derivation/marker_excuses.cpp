@@ -251,7 +251,8 @@ bool Marker::is_condition_of_parameters(const Sides& sides) {
 /// alone.
 bool Marker::is_of_rest_unsaid(MarkedLine& line, const Sides& sides) {
     const Mechanism& m = system_.mechanism();
-    if (displacements_ != nullptr || has_quantities(sides)) return false;
+    const bool is_slope = sides.lhs->kind == Kind::partial && says_rest();  // d²V/dθ² = … at equilibrium
+    if (displacements_ != nullptr || (has_quantities(sides) && !is_slope)) return false;
     if (holds_rates(*sides.lhs) || holds_rates(*sides.rhs) || speaks_of_motion(statement_->words)) return false;
     const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
     if (!m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot) || m.z->depends(residual, m.qddot))
@@ -261,9 +262,10 @@ bool Marker::is_of_rest_unsaid(MarkedLine& line, const Sides& sides) {
                                   .of_number = is_number(*sides.lhs) || is_number(*sides.rhs)};
     const auto found =
         found_at_rest([&](RestStates& states) { return states.vanishes(residual, about); }, true, reason);
-    if (found != RestStates::Found::everywhere && found != RestStates::Found::on_branch) return false;
-    line.status = LineStatus::not_about_scene;
-    line.reason = say("it holds at states of rest; whether they are meant is not said");
+    if (found != RestStates::Found::everywhere && (is_slope || found != RestStates::Found::on_branch))
+        return false;
+    line.status = is_slope ? LineStatus::right : LineStatus::not_about_scene;
+    line.reason = is_slope ? reason : say("it holds at states of rest; whether they are meant is not said");
     notes_.back().claim = {};
     line.claim.clear();
     return true;
@@ -282,6 +284,13 @@ bool Marker::does_not_change(const ex& expression) {
     return system_.rows().holds(system_.rows().row(rate)) == true;
 }
 
+/// U''(r_0): what is the case at a place is so in all motions.
+bool Marker::is_of_derivative_at_place(const Math& side) const {
+    const bool is_there =
+        side.kind == Kind::applied && side.dots > 0 && side.args.size() == 1 && side.args[0]->kind == Kind::letter;
+    return is_there && is_value_of_state(side.args[0]->letter);
+}
+
 /// (M + m) x' + m l θ' cos θ = 0 of a motion that starts from rest: the rate of left − right vanishes on all
 /// motions.
 bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
@@ -289,7 +298,7 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     const ex residual = kept_of(lhs, rhs);
     const bool changes = m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot);
-    if (!changes || m.z->depends(residual, m.qddot)) return false;
+    if (!changes || m.z->depends(residual, m.qddot) || is_of_derivative_at_place(lhs)) return false;
     MotionRows& rows = system_.rows();
     if (rows.holds(rows.row(residual)) == true) return false;  // it is wrong in another way
     return does_not_change(residual);

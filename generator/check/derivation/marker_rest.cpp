@@ -252,6 +252,11 @@ bool Marker::is_of_state_letter(MarkedLine& line, const Math& lhs, const Math& r
                                   .names_place = names_coordinate(lhs) || names_coordinate(rhs),
                                   .of_number = is_number(lhs) || is_number(rhs)};
     line.claim = sides.left.text + " = " + sides.right.text;
+    if (is_taken_there_ && vanishes_at(residual, places_)) {  // U''(r_0) = 3 l²/(m r_0⁴), at any place
+        line.status = LineStatus::right;
+        notes_.back().claim = {};
+        return true;
+    }
     const bool is_of_start = heard_.start_from_rest && !is_named && !about.names_place;  // θ_0 of the release
     RestStates::About there = about;  // a line that names the place may name another one than those above
     if (!about.names_place) there.relations = rest_relations_;

@@ -370,21 +370,32 @@ bool Marker::is_approximation(MarkedLine& line, const Sides& sides) {
     for (const std::string& name : held) truth_.know(name, known_.at(name));
     std::vector<GiNaC::symbol> angles;
     collect_angles(left, m.q, angles);
-    bool fails = false;
+    bool fails = false, may_lack_constant = false;
+    ex expanded;
     for (const BaseState& base : bases())
         for (const std::vector<GiNaC::symbol>& small : {std::as_const(angles), m.q}) {
             const auto written = agree_to_written_order(left, right, base, small, system_);
-            fails = fails || (written && !written->agrees && written->order > 1);
+            if (written && !written->agrees && written->order > 1) {
+                if (!fails) expanded = written->left;
+                fails = true;
+                const auto shifted = agree_to_written_order(left, right, base, small, system_, true);
+                may_lack_constant = may_lack_constant || !shifted || shifted->agrees;
+            }
             if (!written || !written->agrees) continue;
             line.status = LineStatus::right_near;
             line.reason = say("to the order that is written, near {}", base.text);
             notes_.back().claim = {};
             return true;
         }
-    if (!fails || angles.empty() || has_quantities(sides)) return false;  // V without its constant
+    if (!fails || angles.empty() || (has_quantities(sides) && may_lack_constant)) return false;
     line.status = LineStatus::mistake;  // a polynomial in the angles that is another
     line.reason = say("the two sides differ at an order that is written");
+    line.claim = sides.left.text + " = " + sides.right.text;
     notes_.back().is_sure = true;
+    notes_.back().claim = {};
+    notes_.back().left = sides.left;
+    notes_.back().right = sides.right;
+    notes_.back().expanded = expanded;
     return true;
 }
 

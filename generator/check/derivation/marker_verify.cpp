@@ -24,24 +24,6 @@ bool is_checked(LineStatus status) {
            status == LineStatus::undecided || is_up_to(status);
 }
 
-/// The verdicts together; where that fails, of each claim alone.
-std::vector<CheckedClaim> verdicts_on(const std::vector<LineClaim>& claims,
-                                      const std::map<std::string, GiNaC::ex>& known, const DerivedSystem& system) {
-    if (claims.empty()) return {};
-    try {
-        return system.check(claims, known);
-    } catch (const std::exception& error) {
-        if (claims.size() == 1) {
-            CheckedClaim open;
-            open.reason = error.what();
-            return {open};
-        }
-    }
-    std::vector<CheckedClaim> result;
-    for (const LineClaim& claim : claims) result.push_back(std::move(verdicts_on({claim}, known, system)[0]));
-    return result;
-}
-
 }  // namespace
 
 void Marker::verify() {
@@ -64,6 +46,13 @@ void Marker::verify() {
         MarkedLine& line = lines[asked[i]];
         if (line.status == LineStatus::mistake) find_slip(line, notes, known);
     }
+    for (const std::size_t k : asked)
+        if (lines[k].status == LineStatus::mistake && !notes_[k].is_sure &&
+            !is_plausible(lines[k].checked.likely, notes_[k].claim))
+            is_of_wrong_definition(k, known);
+    for (std::size_t k = 0; k < lines.size(); ++k)
+        if (lines[k].status == LineStatus::mistake && notes_[k].expanded)
+            find_slip_of_approximation(lines[k], notes_[k]);
     for (std::size_t k = 0; k < lines.size(); ++k) withhold_unexplained(k);
     for (MarkedLine& line : lines) name_held(line);
 }
@@ -110,6 +99,24 @@ void Marker::find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::s
     }
     if (order == 1 && claim.constants.empty() && (has_free_constant(notes) || !has_quantity(notes)))
         seek_in_integral(line, notes, known);
+}
+
+/// Of cos θ ≈ 1 − θ²/3: the change after which the right side is the left one to the order that is written.
+void Marker::find_slip_of_approximation(MarkedLine& line, const LineNotes& notes) {
+    const std::string name = letters_.free_name("expanded");
+    std::map<std::string, GiNaC::ex> known = known_to_check();
+    known[name] = *notes.expanded;
+    const LineClaim claim{.lhs = name, .rhs = notes.right.text};
+    const CheckedClaim found = std::move(verdicts_on({claim}, known, system_)[0]);
+    if (found.verdict != Verdict::refuted || !is_plausible(found.likely, claim)) return;
+    const std::string begin = name + " = ";
+    if (!found.likely->repair.starts_with(begin)) return;
+    line.checked.verdict = Verdict::refuted;
+    line.checked.likely = found.likely;
+    line.checked.likely->repair = notes.left.text + " = " + found.likely->repair.substr(begin.size());
+    line.term = found.likely->term;
+    line.right = line.checked.likely->repair;
+    locate_term(line, notes);
 }
 
 /// Of b = c in a = b = c, where a = b is right and shorter: a = c.

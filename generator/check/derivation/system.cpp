@@ -145,4 +145,21 @@ std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& cla
     return alembert::check(scene, mechanism, derived_.sheets, by_).claims;
 }
 
+std::vector<CheckedClaim> verdicts_on(const std::vector<LineClaim>& claims,
+                                      const std::map<std::string, GiNaC::ex>& known, const DerivedSystem& system) {
+    if (claims.empty()) return {};
+    try {
+        return system.check(claims, known);
+    } catch (const std::exception& error) {
+        if (claims.size() == 1) {
+            CheckedClaim open;
+            open.reason = error.what();
+            return {open};
+        }
+    }
+    std::vector<CheckedClaim> result;
+    for (const LineClaim& claim : claims) result.push_back(std::move(verdicts_on({claim}, known, system)[0]));
+    return result;
+}
+
 }  // namespace alembert

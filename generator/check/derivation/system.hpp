@@ -98,4 +98,8 @@ private:
     std::map<std::string, GiNaC::symbol> held_;
 };
 
+/// The verdicts together; where that fails, of each claim alone.
+std::vector<CheckedClaim> verdicts_on(const std::vector<LineClaim>& claims,
+                                      const std::map<std::string, GiNaC::ex>& known, const DerivedSystem& system);
+
 }  // namespace alembert

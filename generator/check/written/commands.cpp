@@ -86,7 +86,7 @@ void list_signs(CommandTable& table) {
                 "rightarrow longrightarrow leadsto rightsquigarrow impliedby Leftarrow land hookrightarrow "
                 "xrightarrow xRightarrow longmapsto curvearrowright");
     list_tokens(table, TokenKind::dots, "dots ldots cdots vdots ddots dotsc dotsb");
-    list_tokens(table, TokenKind::space, "quad qquad enspace hfill enskip hfil");
+    list_tokens(table, TokenKind::space, "quad qquad enspace hfill enskip hfil eqno leqno");
     list_tokens(table, TokenKind::bar, "vert lvert rvert mid", "|");
     list_tokens(table, TokenKind::bar, "Vert lVert rVert", "||");
     list_tokens(table, TokenKind::open, "langle", "<");

@@ -179,6 +179,19 @@ bool WrittenLexer::doubled_sign(std::size_t begin) {
     return false;
 }
 
+/// {\rm sen}: \mathrm{sen}
+bool WrittenLexer::old_upright(std::size_t begin) {
+    constexpr std::string_view mark = "{\\rm";
+    if (text_.compare(begin, mark.size(), mark) != 0 || is_latin(byte(begin + mark.size()))) return false;
+    const std::size_t end = end_of_group(text_, begin);
+    if (end == std::string_view::npos) return false;
+    const std::size_t from = begin + mark.size();
+    const std::string body(text_.substr(from, end - from - 1));
+    at_ = end;
+    replace("\\mathrm{" + body + "}", begin);
+    return true;
+}
+
 /// A sign of ASCII.
 bool WrittenLexer::sign() {
     const std::size_t begin = at_;
@@ -215,6 +228,7 @@ bool WrittenLexer::sign() {
         case ']':
             return is(Kind::close, std::string_view(&c, 1));
         case '{':
+            if (!is_plain() && old_upright(begin)) return true;
             return is_plain() ? is(Kind::open, "{") : is(Kind::begin_group);
         case '}':
             return is_plain() ? is(Kind::close, "}") : is(Kind::end_group);

@@ -44,6 +44,7 @@ private:
     void number();
     void primes();
     bool sign();
+    bool old_upright(std::size_t begin);
     bool doubled_sign(std::size_t begin);
     void character();
     void scripts(char (*plain)(char32_t), std::string_view mark);

@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "check/written/commands.hpp"
 #include "check/written/document.hpp"
+#include "check/written/equation_number.hpp"
 #include "check/written/long_dashes.hpp"
 #include "check/written/parser.hpp"
 #include "check/written/statements.hpp"
@@ -147,6 +148,20 @@ std::size_t end_of_formula(std::string_view line) {
     without_blanks();
     if (end == 0 || std::string_view("=+-*/^(").find(line[end - 1]) != std::string_view::npos) return whole;
     return end;
+}
+
+/// A formula that goes on in the next line, without the numbers of equations behind its lines.
+std::vector<WrittenToken> without_equation_numbers(const std::vector<WrittenToken>& tokens,
+                                                   std::string_view text) {
+    std::vector<WrittenToken> result;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const std::size_t before = i == 0 ? tokens[i].offset : tokens[i - 1].offset + tokens[i - 1].length;
+        const bool is_next_line =
+            before < tokens[i].offset && text.substr(before, tokens[i].offset - before).find('\n') != text.npos;
+        if (is_next_line) result.resize(before_equation_number(result, 0, result.size()));
+        result.push_back(tokens[i]);
+    }
+    return result;
 }
 
 bool binds(const WrittenToken& token) {
@@ -564,7 +579,7 @@ bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
     const bool is_latex = has_command(slice(from, stop));
     std::vector<WrittenToken> tokens = is_latex ? latex_tokens(from, stop) : labelled_tokens(from, stop);
     if (tokens.empty()) tokens = plain_tokens(from, stop);
-    std::vector<WrittenStatement> found = statements_of(std::move(tokens), false);
+    std::vector<WrittenStatement> found = statements_of(without_equation_numbers(tokens, text_), false);
     bool has_statement = false, has_failure = false;
     for (const WrittenStatement& one : found) {
         has_statement |= one.sides.size() > 1;

@@ -17,8 +17,7 @@ constexpr std::string_view special_motions =
     "präzession|stationäre rotation|稳定转动*|稳定运转*|匀速转动时*|相对平衡*|"
     "conical pendulum|conical motion|circular orbit*|circular motion|sleeping top|kreisbahn*|"
     "stationäre bewegung|kegelpendel|规则进动*|稳态*|定常*|圆锥摆*|圆轨道*|圆周运动*|"
-    "movimiento estacionario|stationnaire*|circle of radius|kreis vom radius|kreis mit|on the circle|on a "
-    "circle|horizontal circle*|uniform "
+    "movimiento estacionario|stationnaire*|horizontal circle*|uniform "
     "rotation|steady turn*|constant inclination|"
     "gleichförmige rotation|gleichförmige drehung|stationäre*|horizontalen kreis*|auf dem kreis|précession "
     "régulière|"
@@ -29,7 +28,7 @@ constexpr std::string_view special_motions =
     "stationären zustand*|kreisbewegung*|kreisförmige bahn*|kreisförmigen bahn*|kegelbewegung*|"
     "schlafender kreisel|schlafenden kreisel*|précession uniforme|"
     "orbites circulaires|toupie dormante|estado estacionario|precesión uniforme|"
-    "órbitas circulares|rotación estacionaria|trompo dormido|peonza dormida|circunferencia de radio|"
+    "órbitas circulares|rotación estacionaria|trompo dormido|peonza dormida|"
     "moto stazionario|moti stazionari|stato stazionario|regime stazionario|precessione regolare|"
     "precessione stazionaria|precessione uniforme|pendolo conico|orbita circolare|orbite circolari|moto circolare|"
     "rotazione stazionaria|equilibrio relativo|movimento estacionário|estado estacionário|"
@@ -52,6 +51,14 @@ constexpr std::string_view special_motions =
     "規則歳差*|正則歳差*|定常歳差*|円錐振り子*|円錐振子*|円軌道*|円運動*|相対平衡*|相対的なつり合い*|眠りごま*|"
     "眠りコマ*";
 
+/// "On the circle of radius r_0": of one motion, unless the centre of a body moves so in all of them.
+bool is_on_circle(const std::string& text) {
+    return has_phrase(text,
+                      "circle of radius|kreis vom radius|kreis mit|on the circle|on a circle|circunferencia de "
+                      "radio") &&
+           !has_phrase(text, "centre|center|midpoint|mittelpunkt|schwerpunkt|centro|baricentro");
+}
+
 /// "circular:" alone before a formula.
 bool is_label(std::string_view words) {
     const std::string sentence = trimmed_sentence(words);
@@ -61,11 +68,13 @@ bool is_label(std::string_view words) {
 }  // namespace
 
 bool speaks_of_special_motion(std::string_view words) {
-    return has_phrase(last_sentence(words), special_motions) || is_label(words);
+    const std::string sentence = last_sentence(words);
+    return has_phrase(sentence, special_motions) || is_on_circle(sentence) || is_label(words);
 }
 
 bool mentions_special_motion(std::string_view words) {
-    return has_phrase(in_lower_case(words), special_motions) || is_label(words);
+    const std::string text = in_lower_case(words);
+    return has_phrase(text, special_motions) || is_on_circle(text) || is_label(words);
 }
 
 namespace {
