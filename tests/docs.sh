@@ -184,7 +184,7 @@ while IFS= read -r verb; do
     wide=$(wc -L <"$work/help")
     case $verb in # those with the most options need more
         emit) most_lines=30 ;;
-        simulate) most_lines=33 ;;
+        simulate) most_lines=34 ;;
         sweep) most_lines=35 ;;
         report) most_lines=26 ;;
         '') most_lines=24 ;;

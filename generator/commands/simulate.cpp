@@ -10,6 +10,7 @@
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "present/report/motion_plot.hpp"
+#include "present/report/proof.hpp"
 #include "present/report/run.hpp"
 #include "present/report/table_file.hpp"
 #include "scene/lists.hpp"
@@ -27,11 +28,28 @@ struct SimulateVerb : RunVerb {
     std::string section;  ///< of Poincaré; empty for none
     std::string sensitivity;  ///< names with commas; empty for none
     std::string wanted;       ///< of what the sensitivity is; empty for the state
+    bool proof = false;       ///< boxes that contain the motion, in place of a run
     bool all_digits = false;  ///< the values at the end with 16 digits
     std::string show;         ///< the names of the columns that it shows, with commas; if empty, all
 };
 
+/// Boxes in place of a run. Status 4 where they do not reach the end.
+int run_proof(const SimulateVerb& verb) {
+    RunOptions wishes = verb.wishes;
+    wishes.by = verb.by;
+    Progress progress;
+    wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    const Proof proof = prove(scene_of(verb), wishes);
+    progress.wipe();
+    if (verb.json)
+        show(as_json(proof));
+    else
+        show(as_text(proof));
+    return proof.motion.complete ? 0 : 4;
+}
+
 int run(const SimulateVerb& verb) {
+    if (verb.proof) return run_proof(verb);
     check_output(verb.output, FileForm::table, {verb.scene});
     const bool plots_in_text = verb.plot == in_text;
     if (!plots_in_text) check_output(verb.plot, FileForm::picture, {verb.scene});
@@ -97,6 +115,7 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
             verb.take("--reactions", options.wishes.reactions);
+            verb.add_flag("--proof", options.proof, say("intervals that contain the true motion, proved"));
         });
 }
 

@@ -27,20 +27,27 @@ struct Interval {
     double size() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
-/// A low end that overflows is at least the largest number.
-inline Interval widened(double low, double high) {
-    constexpr double rounded = 4 * std::numeric_limits<double>::epsilon(),
-                     least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
+/// The ends, moved apart by `rounded` of their size. A low end that overflows is at least the largest number.
+inline Interval widened(double low, double high, double rounded) {
+    constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
     low = std::min(low, most), high = std::max(high, -most);
     const double a = low - rounded * std::abs(low) - (low != 0 ? least : 0),
                  b = high + rounded * std::abs(high) + (high != 0 ? least : 0);
     return {std::isnan(a) ? -HUGE_VAL : a, std::isnan(b) ? HUGE_VAL : b};
 }
+/// By the error of a function of the library.
+inline Interval widened(double low, double high) {
+    return widened(low, high, 4 * std::numeric_limits<double>::epsilon());
+}
+/// By the error of an operation that is rounded to the nearest number.
+inline Interval rounded(double low, double high) {
+    return widened(low, high, std::numeric_limits<double>::epsilon());
+}
 inline Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 inline Interval operator+(const Interval& a, const Interval& b) {
-    return widened(a.low + b.low, a.high + b.high);
+    return rounded(a.low + b.low, a.high + b.high);
 }
 inline Interval operator-(const Interval& a) {
     return {-a.high, -a.low};
@@ -52,13 +59,13 @@ inline Interval operator*(const Interval& a, const Interval& b) {
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
     const double p[4] = {product(a.low, b.low), product(a.low, b.high), product(a.high, b.low),
                          product(a.high, b.high)};
-    return widened(std::min({p[0], p[1], p[2], p[3]}), std::max({p[0], p[1], p[2], p[3]}));
+    return rounded(std::min({p[0], p[1], p[2], p[3]}), std::max({p[0], p[1], p[2], p[3]}));
 }
 inline Interval operator*(double c, const Interval& a) {
     return Interval{c, c} * a;
 }
 inline Interval inverse(const Interval& a) {
-    return a.has_sign() ? widened(1 / a.high, 1 / a.low) : Interval::whole();
+    return a.has_sign() ? rounded(1 / a.high, 1 / a.low) : Interval::whole();
 }
 /// aⁿ, n ≥ 0.
 inline Interval power(const Interval& a, int n) {
@@ -71,18 +78,24 @@ template <typename Function>
 Interval rising(const Interval& a, Function f) {
     return widened(f(a.low), f(a.high));
 }
-inline Interval cos(const Interval& a) {
+/// The range of a sine or cosine, whose values at the ends these are: it is 1 at `top` and −1 half a turn from
+/// there.
+inline Interval range_of_wave(const Interval& a, double first, double last, double top) {
     constexpr double turn = 2 * std::numbers::pi, exact = 1e15;
     if (!(a.high - a.low < turn) || a.size() > exact) return {-1, 1};
-    const double first = std::cos(a.low), last = std::cos(a.high), few = 1e-15 * std::max(1.0, a.size());
+    const double few = 1e-15 * std::max(1.0, a.size());
     const auto passes = [&](double phase) {  // a place phase + turn k lies in the interval
         return std::floor((a.high + few - phase) / turn) >= std::ceil((a.low - few - phase) / turn);
     };
-    return {passes(std::numbers::pi) ? -1 : std::max(-1.0, std::min(first, last) - few),
-            passes(0) ? 1 : std::min(1.0, std::max(first, last) + few)};
+    const Interval ends = widened(std::min(first, last), std::max(first, last));
+    return {passes(top + std::numbers::pi) ? -1 : std::max(-1.0, ends.low),
+            passes(top) ? 1 : std::min(1.0, ends.high)};
+}
+inline Interval cos(const Interval& a) {
+    return range_of_wave(a, std::cos(a.low), std::cos(a.high), 0);
 }
 inline Interval sin(const Interval& a) {
-    return cos(a - Interval{std::numbers::pi / 2, std::numbers::pi / 2});
+    return range_of_wave(a, std::sin(a.low), std::sin(a.high), std::numbers::pi / 2);
 }
 
 /// The values between two points at a distance w of the cubic polynomial with these values and slopes: it lies
