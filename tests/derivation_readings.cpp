@@ -1077,4 +1077,28 @@ TEST_CASE("readings: the centre that moves on a circle is no special motion") {
           'M');
 }
 
+TEST_CASE("readings: what is wrong by a constant, and conditions on parameters") {
+    const std::string puck =
+        "[parameters]\nm = 1\nM = 2\ng = 9.81\n[coordinates]\nr = 1\ntheta = { initial = 0, rate = 3 "
+        "}\n[energy]\nkinetic = \"(m + M)*r'^2/2 + m*r^2*theta'^2/2\"\npotential = \"M*g*r\"\n";
+    CHECK(statuses(puck, "$$\\frac{\\partial L}{\\partial r} = m r\\dot\\theta^2 + M g$$") == "M");
+    CHECK(statuses(puck, "$$\\frac{\\partial L}{\\partial r} = m r\\dot\\theta^2 - M g$$") == "R");
+    const std::string frequencies =
+        "Small vibrations. The uncoupled case is $k_f a = k_r b$: $$\\omega_z = \\sqrt{\\frac{k_f + k_r}";
+    CHECK(statuses(half_car, frequencies + "m}$$").back() == 'R');
+    CHECK(statuses(half_car, frequencies + "{2m}}$$").back() != 'R');
+}
+
+TEST_CASE("readings: a wrong moment of inertia that the energy of a turning part shows") {
+    const std::string rolling =
+        "gravity = [0, \"-g\"]\n[parameters]\nm = 5\nr = 0.15\ng = 9.81\n[coordinates]\nx = 0\nphi = "
+        "0\n[[frame]]\nname = \"W\"\nrotate = [[\"z\", \"-phi\"]]\n[[body]]\nname = \"wheel\"\nmass = "
+        "\"m\"\ninertia = \"m*r^2/2\"\nframe = \"W\"\nposition = [\"x\", \"r\"]\n";
+    const auto with = [&](const std::string& inertia) {
+        return statuses(rolling, "With $I = " + inertia + " m r^2$ $$T_{rot} = \\tfrac12 I\\dot\\varphi^2$$");
+    };
+    CHECK(with("\\tfrac12") == "DR");
+    CHECK(with("\\tfrac25") == "MF");
+}
+
 }  // namespace derivation_readings

@@ -199,6 +199,7 @@ private:
     };
     std::vector<WrongInertia> energies_with_inertia(const GiNaC::ex& value);
     bool follows_from_inertia(MarkedLine& line, const Sides& sides);
+    void blame_inertia(MarkedLine& line, std::size_t definition, const std::string& meant);
     bool is_from_inertia(MarkedLine& line, const std::function<std::optional<std::size_t>()>& from);
     bool is_same_at_rest(const GiNaC::ex& residual, const GiNaC::ex& other) const;
     bool follows(MarkedLine& line, const Sides& sides);

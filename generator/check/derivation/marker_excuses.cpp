@@ -192,6 +192,7 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         return;
     }
     if (!statement_->displayed && is_condition_of_parameters(sides)) {
+        take_in_relation(lhs, rhs);
         line.status = LineStatus::not_about_scene;
         line.reason = say("a condition on parameters; lines are judged for all their values");
         line.follows_from.reset();
@@ -298,7 +299,15 @@ bool Marker::keeps_its_start(const Math& lhs, const Math& rhs) {
     const Mechanism& m = system_.mechanism();
     const ex residual = kept_of(lhs, rhs);
     const bool changes = m.z->depends(residual, m.q) || m.z->depends(residual, m.qdot);
-    if (!changes || m.z->depends(residual, m.qddot) || is_of_derivative_at_place(lhs)) return false;
+    std::vector<GiNaC::symbol> state = m.q;
+    state.insert(state.end(), m.qdot.begin(), m.qdot.end());
+    const std::vector<ex> slopes = m.z->pull_back({{residual, 1}}, state);
+    const bool is_constant = std::all_of(
+        slopes.begin(), slopes.end(), [&](const ex& slope) { return is_identically_zero(m.z->name(slope), m); });
+    const bool may_be_shifted = lhs.kind == Kind::letter && lhs.dots == 0;  // y = −l cos φ of another origin
+    if (!changes || (is_constant && !may_be_shifted) || m.z->depends(residual, m.qddot) ||
+        is_of_derivative_at_place(lhs))
+        return false;
     MotionRows& rows = system_.rows();
     if (rows.holds(rows.row(residual)) == true) return false;  // it is wrong in another way
     return does_not_change(residual);

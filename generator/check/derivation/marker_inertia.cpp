@@ -35,6 +35,21 @@ std::vector<Turning> turning_bodies(const Scene& scene, const Mechanism& m,
     return result;
 }
 
+/// J φ'²
+bool multiplies_square_of_rate(const Math& math, const Letter& letter) {
+    if (math.kind == Math::Kind::product) {
+        bool has_letter = false, has_square = false;
+        for (const MathPtr& factor : math.args) {
+            has_letter = has_letter || (factor->kind == Math::Kind::letter && factor->letter == letter);
+            has_square = has_square || (factor->kind == Math::Kind::power &&
+                                        factor->args[0]->kind == Math::Kind::letter && factor->args[0]->dots == 1);
+        }
+        if (has_letter && has_square) return true;
+    }
+    return std::any_of(math.args.begin(), math.args.end(),
+                       [&](const MathPtr& arg) { return multiplies_square_of_rate(*arg, letter); });
+}
+
 }  // namespace
 
 /// Whether it is the moment of inertia of a body about its mass centre or about a fixed point, or of all of them.
@@ -54,9 +69,12 @@ bool Marker::is_an_inertia(const ex& value) {
     });
 }
 
-/// "The moment of inertia is J = …", or J of a J φ'' = M that stands above.
+/// "The moment of inertia is J = …", J of a J φ'' = M that stands above, or of J φ'²/2.
 bool Marker::is_meant_as_inertia(const Letter& letter) const {
     if (speaks_of_inertia(heard_.around) || speaks_of_inertia(said_before_)) return true;
+    for (const WrittenStatement& statement : written_.statements)
+        for (const MathPtr& side : statement.sides)
+            if (multiplies_square_of_rate(*side, letter)) return true;
     return std::any_of(&written_.statements.front(), statement_, [&](const WrittenStatement& above) {
         std::map<Letter, int> all;
         for (const MathPtr& side : above.sides) collect_letters(*side, all);
@@ -88,11 +106,42 @@ std::vector<Marker::WrongInertia> Marker::energies_with_inertia(const ex& value)
 
 /// A line that is right with the author's moment of inertia follows from its definition, which is the mistake.
 bool Marker::follows_from_inertia(MarkedLine& line, const Sides& sides) {
-    return is_from_inertia(line, [&] {
+    const auto from = [&] {
         const MotionRow own = system_.rows().row(own_residual(sides));
         return system_.rows().is_identity(own) == true ? own_.wrong_in(sides.own_names())
                                                        : own_.explained_by(own, heard_.small);
-    });
+    };
+    if (is_from_inertia(line, from)) return true;
+    const Mechanism& m = system_.mechanism();
+    const std::set<std::string> names = sides.own_names();
+    for (const Turning& body :
+         turning_bodies(system_.scene(), m, [&](const Expression& e) { return truth_.value(e); }))
+        for (const std::string& name : names) {  // T_rot = I θ'²/2
+            const auto known = known_.find(name);
+            if (known == known_.end() || !is_identically_zero(m.z->name(known->second - body.turning), m))
+                continue;
+            for (const auto& [d, inertia] : inertias_) {
+                if (lines[d].status != LineStatus::definition ||
+                    !own_.state_if(name, m.z->name(body.turning * inertia / body.inertia), d,
+                                   [&] { return (line.follows_from = from()).has_value(); }))
+                    continue;
+                blame_inertia(line, d, body.written);
+                return true;
+            }
+        }
+    return false;
+}
+
+/// No body has this moment of inertia, and the line follows from it.
+void Marker::blame_inertia(MarkedLine& line, std::size_t definition, const std::string& meant) {
+    MarkedLine& wrong = lines[definition];
+    wrong.status = LineStatus::mistake;
+    wrong.reason = say("no body of the scene has this moment of inertia");
+    if (!meant.empty()) wrong.right = wrong.claim.substr(0, wrong.claim.find(" = ")) + " = " + meant;
+    notes_[definition].is_sure = true;
+    notes_[definition].claim = {};
+    line.status = LineStatus::follows;
+    line.reason = say("it follows from line {}", wrong.line);
 }
 
 /// `from` says from which line it follows, in a world with such a moment.
@@ -103,14 +152,7 @@ bool Marker::is_from_inertia(MarkedLine& line, const std::function<std::optional
         for (const WrongInertia& wrong : energies_with_inertia(inertia)) {
             if (!own_.state_if(T, wrong.energy, d, [&] { return (line.follows_from = from()).has_value(); }))
                 continue;
-            lines[d].status = LineStatus::mistake;
-            lines[d].reason = say("no body of the scene has this moment of inertia");
-            if (!wrong.meant.empty())
-                lines[d].right = lines[d].claim.substr(0, lines[d].claim.find(" = ")) + " = " + wrong.meant;
-            notes_[d].is_sure = true;
-            notes_[d].claim = {};
-            line.status = LineStatus::follows;
-            line.reason = say("it follows from line {}", lines[d].line);
+            blame_inertia(line, d, wrong.meant);
             return true;
         }
     }

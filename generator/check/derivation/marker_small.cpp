@@ -96,6 +96,12 @@ bool Marker::is_frequency_again(MarkedLine& line, const Math& letter, const Math
     std::string reason;
     const Found found =
         found_at_rest([&](RestStates& states) { return states.is_frequency(value, {}); }, true, reason);
+    if (found == Found::elsewhere) {  // ω² < 0 of a state that is not stable
+        define_frequency(line, letter, rhs, power);
+        line.reason = say("it holds at some unstable states of rest; whether they are meant is not said");
+        notes_.back().claim = {};
+        return true;
+    }
     if (found != Found::everywhere && found != Found::on_branch) return false;
     define(line, letter, rhs, power);
     line.status = LineStatus::right_near;
