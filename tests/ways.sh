@@ -3,30 +3,34 @@
 # Every row of the table "Other ways to have it" of README.md, on a bare Debian 12: HEAD is cloned there, ./run.sh builds the
 # program, and then each row is made by the command in its second column and tried by that in its third. A line for each says
 # whether it works and how long it took; what a row that does not work has printed follows its line.
-#   ways.sh [WORD...]        only the rows whose first column has one of these words: browser, npm, archive, wheel, source, apt
+#   ways.sh [WORD...]        only the rows whose first column has one of these words: browser, npm, archive, wheel, source, apt,
+#                          documentation
 #   ways.sh --here [WORD...] in this tree and on this machine as they are, with what has been built
+#   ways.sh --here --install [WORD...]   the same, after the tools of each row were installed by apt-get (root)
 # Needs what fresh.sh needs, PyPI for the wheel, and on two cores an hour. Exit code: 0 all work, 1 some do not, 77 no bare Debian
 # can be made here.
 set -euo pipefail
 # shellcheck source=tests/bare_debian.sh
 . "$(dirname -- "$0")/bare_debian.sh"
 repository=$(cd -- "$(dirname -- "$0")/.." && pwd)
+installs=no
 case ${1-} in
     --inside)
-        work=$2 system=$2/system
+        work=$2 system=$2/system installs=yes
         shift 2
         ;;
     --here)
         work=$(mktemp -d) system=
         trap 'rm -rf "$work"' EXIT
         shift
+        [ "${1-}" != --install ] || { installs=yes && shift; }
         ;;
     *) in_own_namespace "$0" "$@" ;;
 esac
 
 # The rows: what it is for, the commands that make it, the command that tries it, by tabs.
 rows=$(sed -n '/^## Other ways to have it/,/^## /s/^| \(.*\) | \(.*\) | \(.*\) |$/\1\t\2\t\3/p' "$repository/README.md" | tail -n +3)
-[ "$(wc -l <<<"$rows")" -ge 6 ] || { echo 'README.md does not have its table of ways' >&2; exit 1; }
+[ "$(wc -l <<<"$rows")" -ge 7 ] || { echo 'README.md does not have its table of ways' >&2; exit 1; }
 code_in() { # TEXT: what stands first in backquotes
     sed -E 's/^[^`]*`([^`]*)`.*/\1/' <<<"$1"
 }
@@ -34,6 +38,7 @@ code_in() { # TEXT: what stands first in backquotes
 # What the tools of a row are, beside what its commands install by themselves.
 packages_for() { # WHAT MAKES IT
     case $1 in
+        *site*) echo python3-venv xz-utils chromium chromium-driver fonts-dejavu-core ;;
         *playground*) echo python3 chromium chromium-driver fonts-dejavu-core ;;
         *web/package*) echo npm ;;
         *portable*) echo debootstrap binutils xz-utils ;;
@@ -71,7 +76,7 @@ while IFS=$'\t' read -r what made tried; do
     esac
     packages=$(packages_for "$made")
     before=$SECONDS result='works'
-    if [ -n "$system" ] && ! run "apt-get -qq -y --no-install-recommends install $packages" >"$work/installed"; then
+    if [ $installs = yes ] && ! run "DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $packages" >"$work/installed"; then
         result='does not work: its tools cannot be installed' && mv "$work/installed" "$work/said"
     elif ! run "set -e; $made" >"$work/said"; then
         result="cannot be made"
