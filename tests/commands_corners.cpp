@@ -113,6 +113,49 @@ duration = 0.9
     CHECK_MESSAGE(says(energy, "velocities would jump"), energy.err);
 }
 
+// The follower of a cam without inertia of its own: its weight is in the energy.
+TEST_CASE("corners: what has no mass passes them") {
+    const auto cam = [](const std::string& mass) {
+        return temporary("cam.toml", fmt::format(R"toml([parameters]
+none = 0
+[tables]
+lift = {{ arguments = ["angle"], period = 6, points = [[0, 0], [2, 0.03], [3, 0.03], [5, 0]] }}
+[coordinates]
+phi = {{ initial = 0.3, rate = 2 }}
+[[frame]]
+name = "C"
+rotate = [["z", "phi"]]
+[[body]]
+name = "cam"
+mass = 1
+inertia = 0.05
+frame = "C"
+position = [0, 0]
+[[particle]]
+name = "follower"
+mass = "{}"
+position = [0, "lift(phi)"]
+[energy]
+potential = "2*lift(phi)"
+[simulation]
+duration = 2
+tolerance = 1e-11
+)toml",
+                                                 mass));
+    };
+    for (const char* const mass : {"0", "none"}) {
+        CAPTURE(mass);
+        const Json end = simulated(cam(mass))["final"];
+        // Two thirds of a turn of the cam later, J phi'^2/2 + 2 lift is what it was.
+        const double phi = number(end, "coordinates", "phi"), rate = number(end, "rates", "phi");
+        REQUIRE(phi > 3);
+        const double lift = phi < 5 ? 0.03 * (5 - phi) / 2 : 0;
+        CHECK(std::abs(0.025 * rate * rate + 2 * lift - (0.1 + 2 * 0.0045)) < 1e-10);
+    }
+    CHECK(says(run({"simulate", cam("1e-6")}), "passes a corner"));
+    CHECK(!says(run({"emit", cam("0"), "-o", temporary("cam_code", "")}), "corner"));
+}
+
 TEST_CASE("corners: a place may have a table of a state and of an input") {
     const auto scene = [](const char* height) {
         return temporary("moved.toml", fmt::format(R"toml([tables]

@@ -115,4 +115,119 @@ tolerance = 1e-12
     CHECK(state(motion, "n") == 4);
 }
 
+// At the bottom the rod bears mg + m v²/l, and from there what the state adds: past 30 N with k = 1. The force
+// turns on another side than that on which it was before.
+TEST_CASE("rounds: a state that is set moves the argument of a sign, a bend or a knot, and forces jump by it") {
+    const auto scene = [](const std::string& load) {
+        return temporary("set.toml", fmt::format(R"toml(
+gravity = [0, -9.81]
+[tables]
+ramp = {{ arguments = ["k"], outside = "hold", points = [[0, 0], [0.5, 0], [1, 1]] }}
+[coordinates]
+x = {{ initial = 0.5 }}
+y = {{ guess = -1 }}
+[states]
+k = {{}}
+hits = {{}}
+back = {{}}
+[[particle]]
+name = "bob"
+mass = 2
+position = ["x", "y"]
+[[constraint]]
+name = "rod"
+holonomic = "sqrt(x^2 + y^2) = 1.1"
+[[force]]
+at = "bob"
+vector = [0, "{}"]
+[[event]]
+name = "set"
+when = "x"
+direction = "down"
+set = {{ k = 1 }}
+[[event]]
+name = "hard"
+when = "-lambda_rod - 30"
+direction = "up"
+set = {{ hits = "hits + 1" }}
+record = ["lambda_rod", "k"]
+[[event]]
+name = "unset"
+when = "hits - 0.5"
+set = {{ k = 0, back = "back + 1" }}
+[[event]]
+name = "soft"
+when = "-lambda_rod - 29"
+direction = "down"
+set = {{ hits = "hits + 0.125" }}
+[simulation]
+duration = 0.8
+tolerance = 1e-11
+)toml",
+                                                 load));
+    };
+    for (const char* const load :
+         {"-12*k", "-12*k*sign(k - 0.5)", "-12*k*max(0, k)", "-12*min(k, 0.75) - 3*k", "-12*ramp(k)", "-12*abs(k)",
+          "-6*abs(k - 0.5) - 12*k + 3", "-6 - 6*sign(k - 0.5)"})
+        for (const char* const method : {"auto", "dop853", "radau"}) {
+            CAPTURE(load);
+            CAPTURE(method);
+            const std::string file = scene(load);
+            const Json motion = simulated(file, {"--method", method});
+            CHECK(state(motion, "hits") == 1.125);
+            CHECK(state(motion, "back") == 1);
+            CHECK(state(motion, "k") == 0);
+            REQUIRE(times(motion, "hard").size() == 1);
+            CHECK(times(motion, "hard") == times(motion, "set"));
+            CHECK(times(motion, "soft") == times(motion, "set"));
+        }
+}
+
+// x goes from 0.5 towards 0, where k becomes 1; x + 0.3 sign(k − 1/2) is zero before, there and after it.
+TEST_CASE("rounds: events whose signs, bends or knots a set state moves past zero happen at that instant") {
+    struct Moved {
+        const char* when;
+        double times;
+    };
+    for (const Moved& one :
+         {Moved{"max(0, k - 0.2) - 0.5", 1}, Moved{"abs(k - 2) - 1.5", 1}, Moved{"ramp(k) - 0.5", 1},
+          Moved{"min(k, 0.4) - 0.3", 1}, Moved{"sign(k - 0.3) + 0.5", 1}, Moved{"x + 0.3*sign(k - 0.5)", 3},
+          Moved{"max(0, k - 0.2) - 0.9", 0}, Moved{"abs(k - 0.4) - 0.7", 0}}) {
+        CAPTURE(one.when);
+        const std::string scene = temporary("moved.toml", fmt::format(R"toml(
+[parameters]
+m = 2
+[tables]
+ramp = {{ arguments = ["k"], outside = "hold", points = [[0, 0], [0.5, 0], [1, 1]] }}
+[coordinates]
+x = {{ initial = 0.5, rate = -1 }}
+[states]
+k = {{}}
+n = {{}}
+[[particle]]
+name = "bob"
+mass = "m"
+position = ["x", 0]
+[[event]]
+name = "set"
+when = "x"
+set = {{ k = 1 }}
+[[event]]
+name = "moved"
+when = "{}"
+set = {{ n = "n + 1" }}
+[simulation]
+duration = 1
+)toml",
+                                                                      one.when));
+        const Json motion = simulated(scene);
+        CHECK(state(motion, "n") == one.times);
+        const std::vector<double> found = times(motion, "moved");
+        if (one.times > 0) CHECK(std::count(found.begin(), found.end(), times(motion, "set")[0]) == 1);
+        const Json rows = swept({scene, "--vary", "m=2:2:1"});
+        CHECK(rows["failed"] == 0);
+        CHECK_MESSAGE(number(rows["rows"][0]["final"], "states", "n") == one.times, rows.dump());
+    }
+}
+
 }  // namespace commands_force_jumps

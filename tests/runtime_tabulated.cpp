@@ -106,6 +106,44 @@ TEST_CASE("tabulated: a value held in its interval is the value, and goes on acr
     }
 }
 
+// Machine code asks for the numbers one after the other; the orders of a Jacobian are those of derivatives, with
+// the numbers of the function.
+TEST_CASE("tabulated: code that holds intervals of two arguments has the values that they have") {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> value(-1, 1);
+    for (const std::size_t first : {2U, 3U, 7U})
+        for (const std::size_t second : {2U, 4U, 9U})
+            for (const bool is_periodic : {false, true})
+                for (const Table::Orders& orders :
+                     {Table::Orders{0, 0}, Table::Orders{1, 0}, Table::Orders{0, 1}}) {
+                    CAPTURE(first);
+                    CAPTURE(second);
+                    CAPTURE(is_periodic);
+                    Table::Points points{.axes = {{}, {}}, .values = {}, .outside = Table::Outside::hold};
+                    for (std::size_t i = 0; i < first; ++i) points.axes[0].at.push_back(static_cast<double>(i));
+                    for (std::size_t i = 0; i < second; ++i) points.axes[1].at.push_back(static_cast<double>(i));
+                    for (std::size_t i = 0; i < first * second; ++i) points.values.push_back(value(random));
+                    if (is_periodic) {
+                        points.axes[0].period = static_cast<double>(first) - 1;
+                        std::copy_n(points.values.begin(), second,
+                                    points.values.end() - static_cast<long>(second));
+                    }
+                    const Table f(points);
+                    const double bits = bits_for_code(f.call(orders, true));
+                    const double x = 0.3 + static_cast<double>(first) / 2,
+                                 y = 0.6 + static_cast<double>(second) / 2;
+                    const auto least = [&](std::size_t axis) { return f.cycle(axis, orders); };
+                    for (long m = -1; m < least(0); ++m)
+                        for (long n = -1; n < least(1); ++n) {
+                            const auto i = static_cast<double>(m), j = static_cast<double>(n);  // −1 is none
+                            const double code = held_for_code(held_for_code(bits, i), j);
+                            CHECK(value_of_two_for_code(code, x, y) == f.value<double>(orders, {&x, &y}, {i, j}));
+                        }
+                    const double no_number = bits_for_code(f.call(orders, false));
+                    CHECK(value_of_two_for_code(no_number, x, y) == f.value<double>(orders, {&x, &y}));
+                }
+}
+
 // y is 0, then x − 2, then 5 (x − 4) …, each piece told from those two knots away.
 TEST_CASE("tabulated: an interval that is held is the same one however far x is") {
     const Table f(

@@ -17,25 +17,30 @@ namespace alembert {
 
 namespace {
 
-std::vector<GiNaC::ex> velocities_of(const Mechanism& m) {
-    std::vector<GiNaC::ex> result;
-    const auto add = [&](const Vector3& v) { result.insert(result.end(), v.begin(), v.end()); };
+/// Velocities that jump together, and what makes that an impact: without mass there is none.
+struct Thing {
+    std::vector<GiNaC::ex> velocities;
+    GiNaC::ex mass = 1;
+};
+
+std::vector<Thing> things_of(const Mechanism& m) {
+    std::vector<Thing> result;
+    const auto listed = [](const Vector3& v) { return std::vector<GiNaC::ex>(v.begin(), v.end()); };
     for (const MassElement& element : m.masses) {
-        add(element.velocity);
-        if (element.rotation) add(element.rotation->w_NB_B);
+        if (!element.mass.is_zero()) result.push_back({listed(element.velocity), element.mass});
+        if (!element.rotation) continue;
+        const std::array<GiNaC::ex, 6>& I = element.rotation->inertia;
+        result.push_back({listed(element.rotation->w_NB_B), I[0] + I[1] + I[2]});
     }
     std::vector<std::pair<GiNaC::ex, GiNaC::ex>> energies;
     for (const Part& part : m.kinetic)
         if (part.origin.kind == Origin::Kind::given_kinetic) energies.emplace_back(part.value, 1);
     if (m.given_lagrangian) energies.emplace_back(*m.given_lagrangian, 1);
-    if (!energies.empty()) {
-        const std::vector<GiNaC::ex> momenta = m.z->pull_back(energies, m.qdot);
-        result.insert(result.end(), momenta.begin(), momenta.end());
-    }
+    if (!energies.empty()) result.push_back({m.z->pull_back(energies, m.qdot)});
     for (const Mechanism::Constraint& c : m.constraints) {
         GiNaC::ex rate = c.offset;
         for (std::size_t i = 0; i < c.row.size(); ++i) rate += c.row[i] * m.qdot[i];
-        result.push_back(rate);
+        result.push_back({{rate}});
     }
     return result;
 }
@@ -82,9 +87,17 @@ bool may_have_corners(const Mechanism& m, const std::vector<GiNaC::ex>& velociti
 std::shared_ptr<const Corners> Corners::of(const Mechanism& mechanism) {
     const Mechanism own = with_own_intermediates(mechanism);
     Program lowered = begun(own);
-    const std::vector<GiNaC::ex> velocities = velocities_of(own);
+    std::vector<GiNaC::ex> velocities, all;
+    std::vector<std::size_t> ends;
+    const std::vector<Thing> things = things_of(own);
+    for (const Thing& one : things) {
+        velocities.insert(velocities.end(), one.velocities.begin(), one.velocities.end());
+        ends.push_back(velocities.size());
+    }
     if (!may_have_corners(own, velocities)) return nullptr;
-    const std::vector<int> nodes = lower_expressions(lowered, own, velocities);
+    all = velocities;
+    for (const Thing& one : things) all.push_back(one.mass);
+    const std::vector<int> nodes = lower_expressions(lowered, own, all);
     for (int i = 0; i < own.size() && !own.states.empty(); ++i)
         lowered.speeds.push_back({.name = own.q[i].get_name() + "'", .unit = "", .rate_of = i});
     for (const Mechanism::State& z : own.states)
@@ -96,7 +109,7 @@ std::shared_ptr<const Corners> Corners::of(const Mechanism& mechanism) {
     if (!may_jump(program)) return nullptr;
     std::optional<Switched> held = switched(program);
     if (!held) return nullptr;
-    std::shared_ptr<const Corners> result(new Corners(std::move(program), *std::move(held)));
+    std::shared_ptr<const Corners> result(new Corners(std::move(program), *std::move(held), std::move(ends)));
     return result->names().empty() ? nullptr : result;
 }
 
@@ -109,10 +122,15 @@ void warn_of_corners(Prepared& prepared) {
                                   fmt::join(corners->names(), ", ")));
 }
 
-Corners::Corners(Program program, Switched held)
-    : program_(std::move(program)), held_(std::move(held)), names_(names_of_sides(program_, held_)) {
+Corners::Corners(Program program, Switched held, std::vector<std::size_t> ends)
+    : program_(std::move(program)),
+      held_(std::move(held)),
+      ends_(std::move(ends)),
+      names_(names_of_sides(program_, held_)) {
     const std::size_t count = held_.functions.size();
     velocities_ = held_.program.nodes_of(Group::output);
+    masses_.assign(velocities_.begin() + static_cast<std::ptrdiff_t>(ends_.back()), velocities_.end());
+    velocities_.resize(ends_.back());
     const std::vector<int> events = held_.program.nodes_of(Group::event);
     functions_.assign(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(count));
     matters_.assign(count, false);
@@ -154,20 +172,30 @@ State<double> Corners::on_sides(const State<double>& at, std::vector<double>* va
 }
 
 std::optional<std::string> Corners::jump(const State<double>& at, std::size_t side) const {
-    constexpr double least = 1e-9;  // of the velocities
+    constexpr double least = 1e-9;        // of the velocities of a thing,
+    constexpr double of_rounding = 1e-4;  // which count as this part of the largest one at least
     State<double> here = on_sides(at);
     double& sigma = here.parameters[here.parameters.size() - functions_.size() + side];
     sigma = 1;
     const std::vector<double> above = interpret(held_.program, here);
     sigma = -1;
     const std::vector<double> below = interpret(held_.program, here);
-    double size = 0, most = 0;
-    for (const int node : velocities_) {
-        const double a = above[static_cast<std::size_t>(node)], b = below[static_cast<std::size_t>(node)];
-        size = std::max({size, std::abs(a), std::abs(b)});
-        most = std::max(most, std::abs(a - b));
+    const auto at_node = [](const std::vector<double>& value, int node) {
+        return value[static_cast<std::size_t>(node)];
+    };
+    double largest = 0;
+    for (const int node : velocities_) largest = std::max(largest, std::abs(at_node(above, node)));
+    bool jumps = false;
+    for (std::size_t thing = 0, next = 0; thing < ends_.size(); ++thing) {
+        double size = of_rounding * largest, most = 0;
+        for (; next < ends_[thing]; ++next) {
+            const double a = at_node(above, velocities_[next]), b = at_node(below, velocities_[next]);
+            size = std::max({size, std::abs(a), std::abs(b)});
+            most = std::max(most, std::abs(a - b));
+        }
+        jumps = jumps || (most > least * size && at_node(above, masses_[thing]) != 0);
     }
-    if (!(most > least * size)) return std::nullopt;
+    if (!jumps) return std::nullopt;
     std::string where;
     for (std::size_t k = 0; k < program_.coordinates.size(); ++k)
         where += fmt::format("{}{} = {:.6g}", k == 0 ? "" : ", ", program_.coordinates[k].name, at.q[k]);

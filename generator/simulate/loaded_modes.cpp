@@ -251,9 +251,11 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     Rhs& rhs = mode.contact.system.rhs;
     rhs.context = std::make_shared<LoadedMode* const>(self);
     rhs.call = [](const void* context, double t, const double* state, double* rate) {
-        const LoadedMode& own = **static_cast<LoadedMode* const*>(context);
+        LoadedMode& own = **static_cast<LoadedMode* const*>(context);
         const std::vector<double> sigma =
             sides_at(*own.contact.switching, t, state, own.contact.system.rhs.dimension, own.side_sizes);
+        own.hold(sigma);  // events that are evaluated with these rates are those of this state
+        own.sides_are_known = false;
         own.contact.switching->rates(t, state, sigma.data(), rate);
     };
     rhs.jacobian = nullptr;

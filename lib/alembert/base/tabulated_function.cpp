@@ -422,7 +422,11 @@ std::string TabulatedFunction::fingerprint() const {
 
 const TabulatedFunction::Call& TabulatedFunction::new_call(const Orders& orders, const Held& held,
                                                            std::size_t left) const {
-    std::unique_ptr<Call>& made = calls_[{orders, held}];
+    constexpr double not_asked = -2;  // yet; a call without a number for an argument is another one
+    Held known = held;
+    std::fill(known.begin() + static_cast<std::ptrdiff_t>(axes_.size() - left),
+              known.begin() + static_cast<std::ptrdiff_t>(axes_.size()), not_asked);
+    std::unique_ptr<Call>& made = calls_[{orders, known}];
     if (!made) made = std::make_unique<Call>(Call{.table = this, .orders = orders, .held = held});
     Call& result = *made;
     const std::size_t axis = axes_.size() - left;

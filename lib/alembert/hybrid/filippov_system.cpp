@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "alembert/hybrid/automaton.hpp"
+#include "alembert/hybrid/continuous_sides.hpp"
 #include "alembert/hybrid/mode_guard.hpp"
 #include "alembert/hybrid/side_choice.hpp"
 #include "alembert/hybrid/sliding_field.hpp"
@@ -425,15 +426,20 @@ private:
     /// Chooses sides for the open functions; the others keep theirs.
     bool choose(const std::vector<int>& open) {
         if (open.empty()) return true;
-        if (open.size() > most_undecided)
+        const auto all_zeros = [](int) { return true; };
+        if (open.size() > most_undecided) {
+            if (const auto sides = continuous_sides(moment(), open)) return go_to(*sides, open, all_zeros);
             return fail(
                 fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
                             system_.names[open.front()], open.size() - 1, now_.t, most_undecided));
+        }
         for (const int k : open) set_idle(k, 0);
         const std::vector<SideChoice> found = side_choices(system_, sides_, open, now_.t, now_.state);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
-        const bool exists = found[0].is_consistent();
+        const bool exists = found[0].is_consistent(), is_ambiguous = are_ambiguous(found);
+        if (!found[0].is_clear() || is_ambiguous)
+            if (const auto sides = continuous_sides(moment(), open)) return go_to(*sides, open, all_zeros);
         if (!exists || !rests(found[0], open)) {
             std::vector<int> more = open;  // one that has stopped, too, may have gathered the errors of many steps
             open_what_has_stopped(more, most_gathered);
@@ -444,13 +450,19 @@ private:
                 fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
                             "that goes on from there",
                             now_.t, names));
-        if (are_ambiguous(found))
+        if (is_ambiguous)
             return fail(
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
                             "say which; start close to that state instead",
                             now_.t, names));
+        return go_to(found[0].sides, open, [this](int k) { return moment().changes_nothing(k); });
+    }
+
+    /// Goes to these sides. `changes_nothing(k)` says whether a function that stays at its zero is idle.
+    template <typename ChangesNothing>
+    bool go_to(const FilippovMode& sides, const std::vector<int>& open, const ChangesNothing& changes_nothing) {
         const FilippovMode before = sides_;
-        sides_ = found[0].sides;
+        sides_ = sides;
         if (const auto why = obstacle_behind(before, open)) {
             sides_ = before;
             return fail(*why);
@@ -458,7 +470,7 @@ private:
         for (const int k : open)
             if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
         for (const int k : open)
-            if (sides_[k] == 0 && !sides_.is_pair(k) && moment().changes_nothing(k)) set_idle(k, moment().idle(k));
+            if (sides_[k] == 0 && !sides_.is_pair(k) && changes_nothing(k)) set_idle(k, moment().idle(k));
         for (const int k : as_declared(open))
             if (before[k] != sides_[k] &&
                 (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet

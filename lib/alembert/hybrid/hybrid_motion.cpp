@@ -252,8 +252,7 @@ private:
         if (!contacts_.kicks.passed || before == after ||
             !std::equal(before.begin(), before.begin() + 2 * n, after.begin()))
             return result;
-        const std::vector<PassedZero> zeros =
-            contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration_);
+        const std::vector<PassedZero> zeros = passed_zeros(before, after);
         for (const LastZero& zero : halt.passed) {
             const auto k = static_cast<std::size_t>(zero.event);
             const int wanted = mode_->events.list[k].direction, side = zeros[k].side;
@@ -269,6 +268,24 @@ private:
                      mode_->events.list[k].name, now_.t));
         }
         return result;
+    }
+
+    /// What becomes of the zeros of events. Their rates tell it; an event that bends at its zero, as |x| − x/2
+    /// does, has none there, and its value soon after tells.
+    std::vector<PassedZero> passed_zeros(const std::vector<double>& before,
+                                         const std::vector<double>& after) const {
+        constexpr double above_rounding = 64 * tolerance::epsilon;
+        std::vector<PassedZero> zeros = contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration_);
+        for (std::size_t k = 0; k < zeros.size(); ++k) {
+            if (!zeros[k].is_zero || zeros[k].side == 0 || contacts_.kicks.is_of_multipliers(k)) continue;
+            const PassedZero soon = zero_along({modes_(closed_), now_.state}, k, now_.t, options_.duration);
+            if (soon.side * zeros[k].side >= 0 ||
+                !(std::abs(soon.slope) * soon.hold > above_rounding * zeros[k].size))
+                continue;
+            zeros[k].side = soon.side;
+            zeros[k].hold = soon.hold;
+        }
+        return zeros;
     }
 
     void tell_gains(const std::vector<int>& kicks, const std::vector<double>& before, const VectorXd& struck) {
@@ -290,8 +307,7 @@ private:
     void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after) {
         passed_.clear();
         if (!contacts_.kicks.passed) return;
-        const std::vector<PassedZero> zeros =
-            contacts_.kicks.passed(now_.t, before.data(), after.data(), acceleration_);
+        const std::vector<PassedZero> zeros = passed_zeros(before, after);
         for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
         for (const LastZero& zero : halt.passed) {
             const auto k = static_cast<std::size_t>(zero.event);
