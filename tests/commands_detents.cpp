@@ -186,4 +186,103 @@ TEST_CASE("stability: the state near by is told in the units in which it is to b
     CHECK(run({"stability", rotor(" + 0.2", "deg", 88), "--at", word, "--at", "phi'=0"}).exit == 0);
 }
 
+namespace {
+
+/// A particle in the plane under these forces.
+std::string in_plane(const std::string& start, const std::string& forces) {
+    return temporary("plane.toml", fmt::format(R"toml(
+[coordinates]
+{}
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", "y"]
+[forces]
+{}
+)toml",
+                                               start, forces));
+}
+
+Json family_of_first(const std::string& scene) {
+    const Json found = json_of({"equilibrium", scene, "--json"});
+    REQUIRE(found["equilibria"].size() > 0);
+    return found["equilibria"][0]["family"];
+}
+
+}  // namespace
+
+// The states of rest are y = s max(0, x − 0.7): a corner at 0.7, no end.
+TEST_CASE("equilibrium: a corner of a continuum is no end, and what was looked for in vain is told") {
+    for (const char* const slope : {"2", "0.5", "200", "-3"}) {
+        CAPTURE(slope);
+        const std::string scene =
+            in_plane("x = 0.3\ny = 0.3", fmt::format("y = \"{}*max(0, x - 0.7) - y\"", slope));
+        const Json family = family_of_first(scene);
+        CHECK(family["free"] == Json{"x"});
+        CHECK_FALSE(family.contains("from"));
+        CHECK_FALSE(family.contains("to"));
+        CHECK(family["seen_from"].get<double>() < -1);
+        CHECK(family["seen_to"].get<double>() > 0.75);
+        CHECK(run({"equilibrium", scene}).out.find("no ends were found between") != std::string::npos);
+    }
+    // y = |x| turns by a right angle.
+    const Json turned =
+        json_of({"equilibrium", in_plane("x = 0.3\ny = 0.3", "x = \"abs(x) - y\"\ny = \"abs(x) - y\""), "--json"});
+    CHECK(turned["equilibria"].size() == 1);
+    CHECK_FALSE(turned["equilibria"][0]["family"].contains("from"));
+    CHECK_FALSE(turned["equilibria"][0]["family"].contains("to"));
+}
+
+TEST_CASE("equilibrium: ends are found where numbers round beside them, and at the state itself") {
+    const Json rounded =
+        family_of_first(in_plane("x = 0.3\ny = 0.1", "x = \"-max(0, x-1.03)-min(0,x+1.03)\"\ny = \"-y\""));
+    CHECK(rounded["from"].get<double>() == doctest::Approx(-1.03).epsilon(1e-12));
+    CHECK(rounded["to"].get<double>() == doctest::Approx(1.03).epsilon(1e-12));
+    const std::string flat = temporary("flat.toml", R"toml(
+[coordinates]
+x = 0
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "-f(x)"
+[tables]
+f = { arguments = ["length"], points = [[-3,-1],[-2,0],[-1,0],[0,1],[1,0],[4,0],[4.01,2],[5,3]] }
+)toml");
+    const Json found = json_of({"equilibrium", flat, "--json"})["equilibria"];
+    REQUIRE(found.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        CHECK(found[k]["family"]["from"].get<double>() == doctest::Approx(k == 0 ? -2 : 1).epsilon(1e-12));
+        CHECK(found[k]["family"]["to"].get<double>() == doctest::Approx(k == 0 ? -1 : 4).epsilon(1e-12));
+    }
+    // A strip between x − 0.5 and x: its edges are no continua of their own.
+    const Json strip =
+        json_of({"equilibrium",
+                 in_plane("x = 0\ny = 0", "x = \"-max(0, x-1)-min(0,x+1)\"\ny = \"-max(0, y-x)-min(0,y-x+0.5)\""),
+                 "--json"});
+    REQUIRE(strip["equilibria"].size() == 1);
+    CHECK(strip["equilibria"][0]["family"]["dimension"] == 2);
+}
+
+// Between the stops there is no force; phi is no angle, because turns lead to the stops.
+TEST_CASE("equilibrium: a coordinate with a stop further off than a turn is no angle") {
+    const auto stopped = [](const std::string& force) {
+        return temporary("stop.toml", fmt::format(R"toml(
+[coordinates]
+phi = {{ initial = 0.2 }}
+[[particle]]
+name = "P"
+mass = 1
+position = ["cos(phi)", "sin(phi)"]
+[forces]
+phi = "{}"
+)toml",
+                                                  force));
+    };
+    const Json free = family_of_first(stopped("-max(0, phi - 23) - min(0, phi + 1)"));
+    CHECK(free["from"].get<double>() == doctest::Approx(-1).epsilon(1e-9));
+    CHECK((free.contains("to") ? free["to"] : free["seen_to"]).get<double>() > 7);
+}
+
 }  // namespace commands_detents

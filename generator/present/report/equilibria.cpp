@@ -16,9 +16,12 @@ Json exact_of(const Mechanism& m, const ClosedRoot& root) {
     return result;
 }
 
-/// " from 0 to 1.3": the ends of a continuum of one dimension that are known.
+/// " from 0 to 1.3": the ends of a continuum of one dimension that are known, and how far the others were looked
+/// for.
 std::string ends_of(const Mechanism& m, const SteadyFamily& family) {
-    if (!family.from && !family.to) return "";
+    const std::optional<long double>&from = family.from, &to = family.to, &low = family.seen_from,
+                             &high = family.seen_to;
+    if (!from && !to && !low && !high) return "";
     const int i = family.free[0];
     const ShownUnit unit(i < m.size() ? m.shown_units[static_cast<std::size_t>(i)]
                                       : m.states[static_cast<std::size_t>(i - m.size())].shown);
@@ -26,9 +29,13 @@ std::string ends_of(const Mechanism& m, const SteadyFamily& family) {
         const std::string name = unit.text({});
         return fmt::format("{:.10g}{}{}", unit.value(static_cast<double>(x)) + 0.0, name.empty() ? "" : " ", name);
     };
-    if (!family.from) return say(" up to {}", shown(*family.to));
-    if (!family.to) return say(" from {} on", shown(*family.from));
-    return say(" from {} to {}", shown(*family.from), shown(*family.to));
+    if (from && to) return say(" from {} to {}", shown(*from), shown(*to));
+    if (to && low) return say(" up to {}; downwards no end was found as far as {}", shown(*to), shown(*low));
+    if (from && high) return say(" from {} on; no end was found as far as {}", shown(*from), shown(*high));
+    if (low && high) return say("; no ends were found between {} and {}", shown(*low), shown(*high));
+    if (low) return say("; downwards no end was found as far as {}", shown(*low));
+    if (high) return say("; upwards no end was found as far as {}", shown(*high));
+    return to ? say(" up to {}", shown(*to)) : say(" from {} on", shown(*from));
 }
 
 Json json_of(const Equilibria& found, const Equilibrium& one) {
@@ -53,6 +60,11 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
         result["family"] = {{"dimension", one.family->dimension}, {"free", free_names(m, *one.family)}};
         if (one.family->from) result["family"]["from"] = static_cast<double>(*one.family->from) + 0.0;
         if (one.family->to) result["family"]["to"] = static_cast<double>(*one.family->to) + 0.0;
+        const auto seen = [&](const char* key, const std::optional<long double>& value) {
+            if (value) result["family"][key] = static_cast<double>(*value) + 0.0;
+        };
+        seen("seen_from", one.family->seen_from);
+        seen("seen_to", one.family->seen_to);
     }
     result["stable"] = name_of(one.judgement.stable);
     result["because"] = one.judgement.because;

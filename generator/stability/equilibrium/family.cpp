@@ -245,43 +245,83 @@ public:
             if (static_cast<int>(problem_.states()[k].number) == free - n) row_ = n + static_cast<int>(k);
     }
 
-    /// The value at the end; nothing if none was found, or if `arrives` is true on the way: it gets each state,
-    /// and how far the next one may be.
+    struct Reached {
+        bool is_end = false;
+        bool goes_on = false;   ///< round a whole turn, or back to values of what is free that it has had
+        long double value = 0;  ///< of what is free, at the end or where the way was lost
+    };
+
+    /// How far the way leads to a side, or until `arrives` is true on it: it gets each state, and how far the next
+    /// one may be.
     template <typename Arrives>
-    std::optional<long double> end(const SteadyRoot& root, long double side, const Arrives& arrives) const {
-        constexpr long double shortest = 1e-13L, beyond = 1e-6L, turns = 1e-3L;
+    Reached follow(const SteadyRoot& root, long double side, const Arrives& arrives) const {
+        constexpr long double shortest = 1e-13L, turns = 1e-3L;
         Instant<long double> at = root.at;
+        const auto lost = [&] { return Reached{.value = value(at)}; };
         LongColumn last;
         long double step = usual_way / 4;
         for (int tries = 0; tries < 3 * most_ways; ++tries) {
             const Tangents here = tangents_at(problem_, at, rates_);
             if (here.scaled.cols() == 0 && !borders_.empty())
-                return value(at);  // at a knot beyond which forces act
-            if (here.scaled.cols() != 1) return std::nullopt;
+                return {.is_end = true, .value = value(at)};  // at a knot beyond which forces act
+            if (here.scaled.cols() != 1) return lost();
             LongColumn by = LongColumn::Unit(1, 0);
             if (here.scaled(row_, 0) * side < 0) by = -by;
             const LongColumn along = here.scaled * by;
-            if (!(along[row_] * side > turns) || (last.size() > 0 && along.dot(last) < 0)) return std::nullopt;
+            if (!(along[row_] * side > turns) || (last.size() > 0 && along.dot(last) < 0))
+                return {.goes_on = true, .value = value(at)};
             const Instant<long double> aim = moved(at, here, step * by);
             const auto next = problem_.solve(aim, rates_);
             if (!next || !(way(problem_, is_angle_, aim, next->at).norm() < bend * step) ||
                 borders_.passed(at, next->at) > 1) {
                 step /= 2;
                 if (step >= shortest) continue;
-                const bool is_border = borders_.passed(at, moved(at, here, beyond * by)) > 0;
-                return is_border ? std::optional(value(at))
-                                 : std::nullopt;  // else a pole, of which digits are lost
+                const Border border = beyond_border(at, here, by, side);
+                if (!border.is_there) return lost();  // a pole, of which digits are lost
+                if (!border.next) return {.is_end = true, .value = value(at)};
+                last = way(problem_, is_angle_, at, border.next->at);
+                last /= last.norm();
+                at = border.next->at;
+                step = usual_way / 64;
+                continue;
             }
             last = along;
             at = next->at;
             step = std::min(2 * step, usual_way);
-            if (arrives(at, 2 * step)) return std::nullopt;
-            if (is_whole_turn(root.at, at)) return std::nullopt;
+            if (arrives(at, 2 * step)) return lost();
+            if (is_whole_turn(root.at, at)) return {.goes_on = true, .value = value(at)};
         }
-        return std::nullopt;
+        return lost();
     }
 
 private:
+    struct Border {
+        bool is_there = false;
+        std::optional<SteadyRoot> next = {};  ///< a member beyond it
+    };
+    /// A border that is so near that no step is short enough, and a member beyond it, where the way goes on with a
+    /// corner. Beyond an end Newton's method comes back to the border.
+    Border beyond_border(const Instant<long double>& at, const Tangents& here, const LongColumn& by,
+                         long double side) const {
+        constexpr long double beyond = 1e-6L, far = 1e3L, progress = 1e-5L;
+        const Instant<long double> aim = moved(at, here, beyond * by);
+        Border border{.is_there = borders_.passed(moved(at, here, -beyond * by), aim) > 0};
+        if (!border.is_there) return border;
+        const auto try_from = [&](const Instant<long double>& guess) {
+            const auto next = problem_.solve(guess, rates_);
+            if (!next || border.next || way(problem_, is_angle_, at, next->at).norm() > far * beyond) return;
+            const long double gone = way(problem_, is_angle_, at, next->at)[row_] * side;
+            if (gone > progress * beyond && tangents_at(problem_, next->at, rates_).scaled.cols() == 1)
+                border.next = next;
+        };
+        try_from(aim);
+        const Tangents there = tangents_at(problem_, aim, rates_);  // at a right angle the first leads back
+        if (there.scaled.cols() == 1)
+            try_from(
+                moved(at, there, LongColumn::Constant(1, there.scaled(row_, 0) * side < 0 ? -beyond : beyond)));
+        return border;
+    }
+
     long double value(const Instant<long double>& at) const {
         const auto row = static_cast<std::size_t>(row_);
         return row < at.q.size() ? at.q[row] : at.u[problem_.states()[row - at.q.size()].place];
@@ -304,14 +344,20 @@ void find_ends(const FamilyWays& ways, SteadyFamily& family, const SteadyRoot& r
     if (family.dimension != 1) return;
     const WayOut out(ways, family.free[0]);
     const auto never = [](const Instant<long double>&, long double) { return false; };
-    family.from = out.end(root, -1, never);
-    family.to = out.end(root, 1, never);
+    for (const long double side : {-1.0L, 1.0L}) {
+        const WayOut::Reached reached = out.follow(root, side, never);
+        if (reached.is_end)
+            (side < 0 ? family.from : family.to) = reached.value;
+        else if (!reached.goes_on)
+            (side < 0 ? family.seen_from : family.seen_to) = reached.value;
+    }
 }
 
 bool leads_round(const FamilyWays& ways, const SteadyFamily& family, const SteadyRoot& from,
                  const SteadyRoot& to) {
     const auto free = static_cast<std::size_t>(family.free[0]);
-    if (family.dimension != 1 || free >= ways.is_angle.size() || !ways.is_angle[free]) return false;
+    const bool is_angle = free < ways.is_angle.size() && ways.is_angle[free];
+    if (family.dimension != 1 || (!is_angle && ways.borders.empty())) return false;
     const WayOut out(ways, family.free[0]);
     bool arrived = false;
     const auto arrives = [&](const Instant<long double>& at, long double reach) {
@@ -321,7 +367,7 @@ bool leads_round(const FamilyWays& ways, const SteadyFamily& family, const Stead
         return arrived;
     };
     for (const long double side : {-1.0L, 1.0L})
-        if (!arrived) out.end(from, side, arrives);
+        if (!arrived) out.follow(from, side, arrives);
     return arrived;
 }
 

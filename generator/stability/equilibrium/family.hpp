@@ -28,6 +28,9 @@ struct SteadyFamily {
     /// Of dimension 1: the ends of the way along which each state is a member, by the value of what is free.
     /// Nothing where no end was found on that side.
     std::optional<long double> from = {}, to = {};
+    /// How far the way was followed to a side on which no end was found, by the value of what is free; nothing
+    /// where there is an end, and where the way leads on, round a circle or back.
+    std::optional<long double> seen_from = {}, seen_to = {};
 };
 
 /// Nothing if no other roots were found beside this one.
@@ -46,7 +49,8 @@ struct FamilyWays {
 /// proof that there is none.
 bool leads_to(const FamilyWays& ways, const SteadyRoot& from, const SteadyRoot& to);
 
-/// Of a family of dimension 1 along an angle: whether it leads to the other root the long way round.
+/// Of a family of dimension 1 along an angle, or with corners: whether it leads to the other root the long way
+/// round, or past these.
 bool leads_round(const FamilyWays& ways, const SteadyFamily& family, const SteadyRoot& from, const SteadyRoot& to);
 
 /// Follows a family of dimension 1 to both sides of the root, as far as what is free rises or falls on the way.

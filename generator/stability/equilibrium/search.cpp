@@ -234,12 +234,13 @@ void add_starts_in(const Borders::Argument& argument, const SteadyProblem& probl
     }
 }
 
-/// The end of a flat piece is no state of its own.
+/// The end of a flat piece is no state of its own, and the edge of a flat area no continuum of its own.
 void drop_ends(const FamilyWays& ways, SteadySearch& found) {
     const auto is_end = [&](const FoundRoot& root) {
-        return !root.family && !ways.problem.has_first_approximation(root.at) &&
+        const int dimension = root.family ? root.family->dimension : 0;
+        return !ways.problem.has_first_approximation(root.at) &&
                std::any_of(found.roots.begin(), found.roots.end(), [&](const FoundRoot& other) {
-                   return other.family &&
+                   return other.family && other.family->dimension > dimension &&
                           (leads_to(ways, other, root) || leads_round(ways, *other.family, other, root));
                });
     };

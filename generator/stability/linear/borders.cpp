@@ -90,7 +90,7 @@ State<Real> Borders::state_of(const Instant<long double>& at) const {
                       .q = converted(at.q),
                       .qdot = converted(at.u),
                       .qddot = {}};
-    state.unknown.resize(inputs_.empty() ? 0 : static_cast<std::size_t>(inputs_.back()) + 1);
+    state.unknown.resize(input_places(inputs_));
     for (std::size_t k = 0; k < inputs_.size(); ++k)
         state.unknown[static_cast<std::size_t>(inputs_[k])] = Real(at.inputs[k]);
     return state;
@@ -153,10 +153,14 @@ bool Borders::has_period(std::size_t coordinate, long double period, const Insta
     const auto is_small = [&](long double x, int node) {
         return std::abs(x) <= same * (1 + std::abs(a[static_cast<std::size_t>(node)]));
     };
-    return std::all_of(arguments_.begin(), arguments_.end(), [&](const Argument& x) {
-        const long double turn = x.axis->period, by = change(x.node);
-        return is_small(turn > 0 ? std::remainder(by, turn) : by, x.node);
+    const bool sides_stay = std::all_of(sides_.begin(), sides_.end(), [&](int side) {
+        const long double by = change(side);
+        return is_small(by, side) || is_small(by + 2 * a[static_cast<std::size_t>(side)], side);  // |sin(q/2)|
     });
+    return sides_stay && std::all_of(arguments_.begin(), arguments_.end(), [&](const Argument& x) {
+               const long double turn = x.axis->period, by = change(x.node);
+               return is_small(turn > 0 ? std::remainder(by, turn) : by, x.node);
+           });
 }
 
 Borders::Slope Borders::slope(const Argument& argument, const Instant<long double>& at) const {

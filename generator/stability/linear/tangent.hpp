@@ -19,6 +19,11 @@
 
 namespace alembert {
 
+/// How many places of kind `unknown` there are up to the last of these inputs.
+inline std::size_t input_places(const std::vector<int>& inputs) {
+    return inputs.empty() ? 0 : static_cast<std::size_t>(inputs.back()) + 1;
+}
+
 /// Everything that the algebra needs as one Program. Its variables of kind `unknown` are the inputs that occur.
 struct Residuals {
     /// If `at_rest` names speeds, they are 0 in M, f, A and γ, whose derivatives by them are 0 then: a much
@@ -32,7 +37,7 @@ struct Residuals {
     std::vector<int> mass, forcing, row, gamma, rate, position, velocity;
     std::vector<int> inputs;  ///< 3·index + order of the inputs that occur
     /// How many unknowns of the program there are, with those that do not occur.
-    std::size_t input_places() const { return inputs.empty() ? 0 : static_cast<std::size_t>(inputs.back()) + 1; }
+    std::size_t input_places() const { return alembert::input_places(inputs); }
     std::vector<int> input_values;  ///< nodes, in parameters and t
     std::vector<int> geometry;      ///< all nodes that `position` and `velocity` need
     std::vector<int> steady;        ///< all nodes that the balance of a steady motion needs
