@@ -12,6 +12,7 @@
 
 #include "json.hpp"
 #include "program.hpp"
+#include "shell.hpp"
 
 namespace commands_places {
 
