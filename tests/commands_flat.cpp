@@ -181,4 +181,47 @@ holonomic = "{0}*sin(q0) + {1}*sin(q1) = {0}*sin(q2)"
         }
 }
 
+// Without forces the energy is T. Rates that are wrong by the part ρ make it wrong by 2ρ T, and the error is told
+// with 2.5 times that part: of the motion's size, and of max(1, |y|) for coordinates of metres, of which y1 goes
+// from one end of its circle to the other.
+TEST_CASE("flat: what the drift of the energy tells is an error of rates and coordinates, in their units") {
+    const double crank = 0.58, rod = 1.72, angle = 0.9, rate = 2.07, x = crank * std::cos(angle),
+                 y = crank * std::sin(angle);
+    const Json motion =
+        json_of({"simulate",
+                 temporary("cartesian.toml", fmt::format(R"toml([coordinates]
+x1 = {{ initial = {0}, rate = {3} }}
+y1 = {{ initial = {1}, rate = {4} }}
+x2 = {{ initial = {2}, rate = {3} }}
+y2 = {{ initial = {1}, rate = {4} }}
+[[particle]]
+name = "A"
+mass = 1
+position = ["x1", "y1"]
+[[particle]]
+name = "B"
+mass = 1
+position = ["x2", "y2"]
+[[constraint]]
+name = "first"
+holonomic = "x1^2 + y1^2 - {5}^2"
+[[constraint]]
+name = "second"
+holonomic = "(x2 - {6})^2 + y2^2 - {5}^2"
+[[constraint]]
+name = "rod"
+holonomic = "(x2 - x1)^2 + (y2 - y1)^2 - {6}^2"
+[simulation]
+duration = 2.806953951147077
+tolerance = 1e-12
+method = "radau"
+)toml",
+                                                         x, y, x + rod, -y * rate, x * rate, crank, rod)),
+                 "--json"});
+    const double drift = motion["energy_drift"];
+    REQUIRE(drift > 1e-13);
+    CHECK(motion["error_estimate"]["scaled"].get<double>() >= 1.25 * drift * (1 - 1e-12));
+    CHECK(motion["error_estimate"]["value"].get<double>() >= 1.25 * drift * 2 * crank);
+}
+
 }  // namespace commands_flat

@@ -57,7 +57,8 @@ void JumpWatch::operator()(double t, const double* state) {
 }
 
 void JumpWatch::look(double t, const double* state, std::size_t border) {
-    constexpr double small = 1e-3;
+    constexpr double rounding = 1e-10;            // of a rate's size
+    constexpr double nearer = 1e-8, near = 1e-5;  // of the step
     std::vector<double> at(size_), value(tape_->size());
     const auto evaluate = [&](double part) -> const std::vector<double>& {
         for (std::size_t i = 0; i < size_; ++i) at[i] = last_[i] + part * (state[i] - last_[i]);
@@ -69,12 +70,15 @@ void JumpWatch::look(double t, const double* state, std::size_t border) {
         const double middle = (low + high) / 2;
         (evaluate(middle)[border] * before_[border] > 0 ? low : high) = middle;
     }
-    const double beside = 1e-9;
-    const std::vector<double> one = evaluate(low - beside), other = evaluate(high + beside);
+    const std::vector<double> one = evaluate(low - nearer), other = evaluate(high + nearer),
+                              before = evaluate(low - near), after = evaluate(high + near);
     for (std::size_t k = borders_; k < one.size(); ++k) {
         const double size =
             std::max({std::abs(one[k]), std::abs(other[k]), std::abs(before_[k]), std::abs(now_[k])});
-        if (std::abs(one[k] - other[k]) <= small * size) continue;
+        // What a rate without a jump changes between the two places falls with their distance.
+        const double change = other[k] - one[k], wider = after[k] - before[k];
+        const double jump = change - (wider - change) * nearer / (near - nearer);
+        if (std::abs(jump) <= rounding * size) continue;
         const double when = last_time_ + low * (t - last_time_);
         throw IntegrationError(
             say("at t = {:.6g} a rate jumps from {:.6g} to {:.6g}, where {} jumps in it, and derivatives along "

@@ -14,7 +14,6 @@
 #include "program/event_code.hpp"
 #include "program/jump_watch.hpp"
 #include "program/lower/quick_times.hpp"
-#include "program/switches.hpp"
 #include "program/variation.hpp"
 
 namespace alembert {
@@ -30,14 +29,6 @@ void check_smooth_motion(const Mechanism& m) {
                 m.redundant[0].name));
     if (const std::string why = Saltation::obstacle(m); !why.empty())
         throw ModelError(say("--sensitivity: {}; leave these out", why));
-}
-
-void check_jumps(const Program& program, const std::vector<int>& parameters) {
-    if (jumps_along_motion(program, parameters))
-        throw ModelError(
-            say("--sensitivity: the accelerations jump where the argument of a 'sign' is zero or a table has a "
-                "corner, and derivatives with them; write a smooth function in its place, or take "
-                "interpolation = \"cubic\""));
 }
 
 /// Coordinates, then rates or speeds.
@@ -78,11 +69,6 @@ Sensitivities::Sensitivities(const Derived& d, const Program& program, const Sta
     const Starts known(m, names);  // refuses names that cannot be set
     check_smooth_motion(m);
     find_wanted(program, of);
-    const bool outputs = std::any_of(components_.begin(), components_.end(), [](int k) { return k < 0; });
-    auto derivatives = derivatives_of(d, program, {.parameters = true, .values = outputs});
-    if (!derivatives)
-        throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
-    program_ = std::move(derivatives->program);
     const State<double> state = state_of(start, m, d.equations);
     state_ = state.q;
     state_.insert(state_.end(), state.qdot.begin(), state.qdot.end());
@@ -96,9 +82,18 @@ Sensitivities::Sensitivities(const Derived& d, const Program& program, const Sta
         found.push_back(*one);
         parameters_.push_back(one->kind == StartName::Kind::parameter ? static_cast<int>(one->index) : -1);
     }
-    check_jumps(program, parameters_);
+    const bool outputs = std::any_of(components_.begin(), components_.end(), [](int k) { return k < 0; });
+    const DerivativeWishes wishes{.parameters = true, .values = outputs};
+    if (HybridVariation::is_needed(m, program, parameters_)) {
+        hybrid_.emplace(d, program, parameters_, start, wishes);
+        program_ = hybrid_->program();
+    } else {
+        auto derivatives = derivatives_of(d, program, wishes);
+        if (!derivatives)
+            throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
+        program_ = std::move(derivatives->program);
+    }
     columns_ = start_derivatives(m, d.equations, start, found);
-    if (m.has_kicks()) saltation_.emplace(m, parameters_);
 }
 
 void Sensitivities::find_wanted(const Program& program, const std::vector<std::string>& of) {
@@ -124,12 +119,13 @@ void Sensitivities::find_wanted(const Program& program, const std::vector<std::s
 
 // The rows of value_gradient are those of energies and power, then of outputs; their entries are those by the
 // state, by u', and by parameters.
-Sensitivities::AtEnd Sensitivities::at_end(double t, std::span<const double> state) const {
+Sensitivities::AtEnd Sensitivities::at_end(double t, std::span<const double> state,
+                                           const std::vector<double>& parameters) const {
     const std::size_t N = state_.size(), n = program_.coordinates.size(), s = N - n,
                       P = program_.parameters.size();
     AtEnd result;
     const std::vector<double> value =
-        interpret<double>(program_, {.parameters = start_.parameters,
+        interpret<double>(program_, {.parameters = parameters,
                                      .t = t,
                                      .q = {state.begin(), state.begin() + static_cast<std::ptrdiff_t>(n)},
                                      .qdot = {state.begin() + static_cast<std::ptrdiff_t>(n), state.end()},
@@ -165,9 +161,9 @@ Sensitivities::AtEnd Sensitivities::at_end(double t, std::span<const double> sta
 }
 
 Sensitivity Sensitivities::at(double end, const SensitivityOptions& options) const {
-    if (2 * of_.size() <= names_.size() && end > start_.t && options.sample == 0 && !saltation_)
+    if (2 * of_.size() <= names_.size() && end > start_.t && options.sample == 0 && !hybrid_)
         if (auto found = backwards(end, options)) return *found;
-    return forwards(end, options);
+    return hybrid_ ? through_instants(end, options) : forwards(end, options);
 }
 
 namespace {
@@ -227,9 +223,10 @@ Trajectory Sensitivities::integrated(const System& system, const std::vector<dou
     return motion;
 }
 
-std::vector<std::vector<double>> Sensitivities::values_at(double t, std::span<const double> y) const {
+std::vector<std::vector<double>> Sensitivities::values_at(double t, std::span<const double> y,
+                                                          const std::vector<double>& parameters) const {
     const std::size_t N = state_.size();
-    const AtEnd wanted = at_end(t, y.first(N));
+    const AtEnd wanted = at_end(t, y.first(N), parameters);
     std::vector<std::vector<double>> values = wanted.by_name;
     for (std::size_t i = 0; i < of_.size(); ++i)
         for (std::size_t c = 0; c < columns_.size(); ++c)
@@ -246,81 +243,80 @@ Sensitivity Sensitivities::forwards(double end, const SensitivityOptions& option
         teller.tell(t);
         variation(t, y, rate, columns);
     });
-    const std::vector<std::string> state = names_of_state(program_);
-    both.names = state;
-    for (const std::string& name : names_)
-        for (const std::string& of : state) both.names.push_back(fmt::format("d({})/d({})", of, name));
-    std::vector<double> y = state_;
-    for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
-    const System system = watched(both, end);
-    const auto from = [&](double begin, double until, double sample) {
-        return integrated(system, y,
-                          {.start = begin,
-                           .duration = until - begin,
-                           .tolerance = options.tolerance,
-                           .sample = sample > 0 ? sample : until - begin,
-                           .budget = options.budget,
-                           .on_step = for_jumps()});
-    };
-    if (saltation_) return through_events(end, options, from, y);
-    const Trajectory motion = from(start_.t, end, options.sample);
+    both.names = names_of_all();
+    const Trajectory motion = integrated(watched(both, end), at_start(),
+                                         {.start = start_.t,
+                                          .duration = duration,
+                                          .tolerance = options.tolerance,
+                                          .sample = options.sample > 0 ? options.sample : duration,
+                                          .budget = options.budget,
+                                          .on_step = for_jumps()});
     Sensitivity result{.time = end,
                        .of = of_,
                        .by = names_,
-                       .values = values_at(end, motion.final_state()),
+                       .values = values_at(end, motion.final_state(), start_.parameters),
                        .steps = motion.statistics.steps,
                        .evaluations = motion.statistics.evaluations};
     for (std::size_t k = 0; k < motion.rows() && options.sample > 0; ++k) {
         result.times.push_back(motion.times[k]);
-        result.rows.push_back(values_at(motion.times[k], motion.state(k)));
+        result.rows.push_back(values_at(motion.times[k], motion.state(k), start_.parameters));
     }
     return result;
 }
 
-/// The motion is integrated from one event to the next; those of the run say when.
-Sensitivity Sensitivities::through_events(double end, const SensitivityOptions& options, const Piece& from,
-                                          std::vector<double>& y) const {
+Sensitivity Sensitivities::through_instants(double end, const SensitivityOptions& options) const {
     constexpr double at_once = 1e-10;  // of the run
     const double same = at_once * std::max({1.0, std::abs(start_.t), std::abs(end)});
-    if (options.sample > 0)
-        throw ModelError(
-            say("--sensitivity: rows of derivatives are not made where events change the motion; leave "
-                "sensitivity_rows out"));
-    const Variation<double> variation(program_, start_.parameters, parameters_);
-    Sensitivity result{.time = end, .of = of_, .by = names_, .values = {}};
-    double last = start_.t;
-    const auto follow = [&](double until) {
-        if (!(until > last)) return;
-        const Trajectory piece = from(last, until, 0);
-        y.assign(piece.final_state().begin(), piece.final_state().end());
-        result.steps += piece.statistics.steps;
-        result.evaluations += piece.statistics.evaluations;
-    };
-    std::string name;
-    for (const EventRecord& event : options.events) {
-        if (!saltation_->acts(event.index)) continue;
-        if (!name.empty() && event.time - last <= same)
-            throw IntegrationError(say("--sensitivity: events '{}' and '{}' happen at one instant, t = {:.6g}, "
-                                       "where derivatives to both "
-                                       "sides differ",
-                                       name, event.name, event.time),
-                                   event.time, y);
-        if (end - event.time <= same)
+    HybridVariation variation = *hybrid_;
+    Teller teller(options, start_.t, end - start_.t);
+    const HybridVariation::Wishes wishes{.tolerance = options.tolerance,
+                                         .budget = options.budget,
+                                         .longest_step = start_.max_step,
+                                         .names = names_of_all(),
+                                         .tell = [&](double t) { teller.tell(t); }};
+    std::vector<double> y = at_start();
+    variation.begin(options.instants, start_.t, y, wishes);
+    for (const JumpInstant& one : variation.instants())
+        if (end - one.time <= same)
             throw IntegrationError(
-                say("--sensitivity: event '{}' happens at the end, t = {:.6g}, where derivatives "
-                    "jump; end the motion before or after it",
-                    event.name, event.time),
-                event.time, y);
-        follow(event.time);
-        saltation_->pass(
-            {event.index, event.time, start_.parameters},
-            [&](const std::vector<double>& x) { return variation.rate_at(event.time, x); }, y);
-        last = event.time;
-        name = event.name;
+                say("--sensitivity: '{}' happens at the end, t = {:.6g}, where derivatives jump; "
+                    "end the motion before or after it",
+                    one.name, one.time),
+                one.time, state_);
+    Sensitivity result{.time = end, .of = of_, .by = names_, .values = {}};
+    const auto row = [&](double t) {
+        result.times.push_back(t);
+        result.rows.push_back(values_at(t, y, variation.parameters()));
+    };
+    double now = start_.t;
+    if (options.sample > 0) row(now);
+    for (long k = 1; options.sample > 0; ++k) {
+        const double next = start_.t + static_cast<double>(k) * options.sample;
+        if (!(end - next > same)) break;
+        variation.go(now, next, y, wishes);
+        row(now = next);
     }
-    follow(end);
-    result.values = values_at(end, y);
+    variation.go(now, end, y, wishes);
+    if (options.sample > 0) row(end);
+    result.values = values_at(end, y, variation.parameters());
+    result.steps = variation.steps();
+    result.evaluations = variation.evaluations();
     return result;
+}
+
+/// The state, then the columns.
+std::vector<double> Sensitivities::at_start() const {
+    std::vector<double> y = state_;
+    for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
+    return y;
+}
+
+std::vector<std::string> Sensitivities::names_of_all() const {
+    const std::vector<std::string> state = names_of_state(program_);
+    std::vector<std::string> names = state;
+    for (const std::string& name : names_)
+        for (const std::string& of : state) names.push_back(fmt::format("d({})/d({})", of, name));
+    return names;
 }
 
 /// Nothing for a stiff motion, which cannot be run backwards.
@@ -348,7 +344,7 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, const Sensitivit
     if (counted.switched) return std::nullopt;
     options.sample = duration / static_cast<double>(1 + counted.steps / steps_between_rows);
     const Trajectory motion = integrated(forwards, state_, options);
-    const AtEnd wanted = at_end(end, motion.final_state());
+    const AtEnd wanted = at_end(end, motion.final_state(), start_.parameters);
 
     Sensitivity result{.time = end,
                        .of = of_,

@@ -26,7 +26,7 @@
 #include "alembert/ode/integrate.hpp"
 #include "analysis/derive/derived.hpp"
 #include "program/lower/start.hpp"
-#include "simulate/saltation.hpp"
+#include "simulate/hybrid_variation.hpp"
 
 namespace alembert {
 
@@ -44,7 +44,7 @@ struct SensitivityOptions {
     double tolerance = 1e-9;
     long budget = 10'000'000;
     double sample = 0;                                                      ///< s between rows; 0 for none
-    std::vector<EventRecord> events = {};                                   ///< of the run, in their order
+    JumpInstants instants = {};                                             ///< of the run
     std::function<void(std::string_view what, double part)> progress = {};  ///< may be empty
 };
 
@@ -67,12 +67,13 @@ private:
     };
 
     void find_wanted(const Program& program, const std::vector<std::string>& of);
-    AtEnd at_end(double t, std::span<const double> state) const;
+    AtEnd at_end(double t, std::span<const double> state, const std::vector<double>& parameters) const;
     /// ∂(what is wanted)/∂name at t, of the state and the columns of Φ after it.
-    std::vector<std::vector<double>> values_at(double t, std::span<const double> state_and_columns) const;
-    using Piece = std::function<Trajectory(double begin, double until, double sample)>;
-    Sensitivity through_events(double end, const SensitivityOptions& options, const Piece& from,
-                               std::vector<double>& state_and_columns) const;
+    std::vector<std::vector<double>> values_at(double t, std::span<const double> state_and_columns,
+                                               const std::vector<double>& parameters) const;
+    Sensitivity through_instants(double end, const SensitivityOptions& options) const;
+    std::vector<double> at_start() const;
+    std::vector<std::string> names_of_all() const;
     Sensitivity forwards(double end, const SensitivityOptions& options) const;
     std::optional<Sensitivity> backwards(double end, const SensitivityOptions& options) const;
     System watched(Rhs rhs, double end) const;
@@ -86,7 +87,7 @@ private:
     std::vector<std::string> of_, names_;
     std::vector<int> components_;               ///< of the state, or ~k for output k
     std::vector<int> parameters_;               ///< the position of the parameter of each name, or −1
-    std::optional<Saltation> saltation_;        ///< where events change the motion
+    std::optional<HybridVariation> hybrid_;     ///< where derivatives jump
     std::vector<std::vector<double>> columns_;  ///< the derivative of the state at the start by each name
 };
 

@@ -120,13 +120,14 @@ public:
         watch.is_over = true;
         settle_account(watch);
         refuse_start_without_energy(free);
+        add_instants(run_.instants, run_.mechanism, run_.motion, contacts_.names);
         if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
         if (sensitivities_ && !run_.motion.failure)
             run_.sensitivity = sensitivities_->at(
                 run_.motion.final_time(), {.tolerance = options_.tolerance,
                                            .budget = wishes_.budget,
                                            .sample = wishes_.sensitivity_rows ? sample_interval(options_) : 0,
-                                           .events = run_.motion.events,
+                                           .instants = run_.instants,
                                            .progress = wishes_.progress});
         describe(modes, free);
     }
@@ -139,12 +140,20 @@ private:
             const ModeChange& change = side.change;
             if (side.frictions.empty())
                 run_.side_changes.push_back({change.time, side.name, change.kind, side.is_knot});
+            const bool is_crossed = change.kind == ModeChange::Kind::crossing;
+            run_.instants.list.push_back({is_crossed ? JumpInstant::Kind::side : JumpInstant::Kind::holding,
+                                          change.index, change.time, side.name});
             for (const Switched::Rubbing& one : side.frictions)
                 note(run_.friction_changes,
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
         modes.on_side_begin = [this, &watch](const ModeChange& change,
                                              const std::vector<Switched::Rubbing>& frictions) {
+            if (!watch.is_over && change.time == options_.start) {
+                std::vector<int>& sides = run_.instants.sides;
+                sides.resize(std::max(sides.size(), static_cast<std::size_t>(change.index) + 1), 0);
+                sides[static_cast<std::size_t>(change.index)] = change.side;
+            }
             // What an impact leaves of a velocity may be rounding.
             if (watch.is_over || (has_contacts_ && change.time != set_at_)) return;
             for (const Switched::Rubbing& one : frictions)  // after an event it may stick no more
@@ -329,15 +338,24 @@ private:
 
     /// Where rows of constraints nearly depend on each other, as those of a linkage that lies flat, a root of
     /// roundings is left in the constraints and in the rates, by chance and in each run another: the difference of
-    /// two runs may be much less than the error of both, but the energy tells it.
+    /// two runs may be much less than the error of both, but the energy tells it. Rates that are all wrong by the
+    /// part ρ make T wrong by 2ρ T, and coordinates by ρ of the way that follows.
     void raise_where_flat(const Watch& watch) {
-        constexpr double rounding = 1e-12;
-        const double drift = run_.energy.conserved ? run_.energy.drift : run_.energy.balance;
+        constexpr double rounding = 1e-12, safety = 2.5;  // as for the difference of two runs
+        const double drift =
+            run_.energy.conserved ? watch.energy_error.energy_of_motion() : watch.energy_error.balance_of_motion();
         if (run_.mechanism.constraints.empty() || !run_.estimate->value || !std::isfinite(drift) ||
             !(watch.constraint_drift > rounding * size_of(run_.motion, run_.mechanism.q.size())))
             return;
-        run_.estimate->value = std::max(*run_.estimate->value, drift);
-        if (run_.estimate->scaled) run_.estimate->scaled = std::max(*run_.estimate->scaled, drift);
+        const double part = safety * drift / 2;
+        double largest = 0;
+        for (std::size_t i = 0; i < std::min(reached_.size(), start_.q.size() + first_.qdot.size()); ++i) {
+            const Interval& one = reached_[i];
+            const double moved = i < start_.q.size() ? one.high - one.low : one.size();
+            largest = std::max(largest, moved / std::max(1.0, one.size()));
+        }
+        run_.estimate->value = std::max(*run_.estimate->value, part * largest);
+        if (run_.estimate->scaled) run_.estimate->scaled = std::max(*run_.estimate->scaled, part);
     }
 
     void estimate(LoadedModes& modes, const LoadedMode& free, const Watch& watch) {

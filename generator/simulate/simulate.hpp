@@ -17,6 +17,7 @@
 #include "alembert/hybrid/hybrid_motion.hpp"
 #include "simulate/charts.hpp"
 #include "simulate/estimate.hpp"
+#include "simulate/jump_instants.hpp"
 #include "simulate/options.hpp"
 #include "simulate/rows.hpp"
 #include "simulate/sensitivity.hpp"
@@ -67,6 +68,7 @@ struct Run : Derived {
         bool is_knot;
     };
     std::vector<Side> side_changes = {};
+    JumpInstants instants = {};  ///< what derivatives have to know of all this
     /// A contact with dry friction begins to stick or to slip, or slips the other way.
     struct FrictionChange {
         double time;

@@ -4,32 +4,29 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
 
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
-#include "alembert/base/random.hpp"
 #include "alembert/native/compilation.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "analysis/state/assemble.hpp"
+#include "analysis/state/given_values.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
 #include "program/differentiate.hpp"
 #include "program/jump_watch.hpp"
 #include "program/lower/lower.hpp"
 #include "program/switches.hpp"
+#include "stability/linear/events_here.hpp"
 #include "stability/linear/tangent.hpp"
+#include "stability/stretching.hpp"
 
 namespace alembert {
 
 using Index = Eigen::Index;
 
 namespace {
-
-constexpr double forgotten = 0.1;  // of the motion, before estimates begin
-constexpr int most_intervals = 20000, least_intervals = 400, most_rows = 20;
 
 Program differentiated(const Derived& d) {
     auto program = derivatives_of(d, lowered(d).program);
@@ -90,21 +87,6 @@ private:
     bool constrained_;
 };
 
-void check_smooth(const Mechanism& m) {
-    if (m.has_modes())
-        throw ModelError(say(
-            "Lyapunov exponents are computed for smooth motions; this scene has contacts, dry friction or events "
-            "that change the motion, at which the variational equations jump"));
-}
-
-void check_jumps(const Program& program) {
-    if (jumps_along_motion(program))
-        throw ModelError(say(
-            "Lyapunov exponents are computed for smooth motions; here accelerations jump where the argument of "
-            "a 'sign' is zero or a table has a corner, and the variational equations with them; write a smooth "
-            "function in its place, or take interpolation = \"cubic\""));
-}
-
 /// x, the tangent vectors, and ∫ trace.
 Rhs with_variations(const Rhs& rhs, Index N, Index columns) {
     return make_rhs(
@@ -141,19 +123,10 @@ public:
                     "that many",
                     options.count, result_.size));
         columns_ = options.count > 0 ? options.count : result_.size;
-        std::mt19937_64 random(8);
-        NormalReal normal;
-        Eigen::MatrixXd first(along.cols(), columns_);
-        for (Index c = 0; c < columns_; ++c)
-            for (Index i = 0; i < along.cols(); ++i) first(i, c) = normal(random);
-        Q_ = along * first;
-        orthonormal();
+        stretching_.emplace(along, static_cast<int>(columns_));
         Eigen::MatrixXd J(N_, N_);
         rhs_.jacobian(rhs_.context.get(), start_, y_.data(), J.data());
-        const double fast = std::max(1e-6, J.norm());
-        const double wanted =
-            std::clamp(std::ceil(options.duration * fast / 2), double(least_intervals), double(most_intervals));
-        intervals_ = static_cast<int>(wanted);
+        intervals_ = intervals_of(options.duration, J.norm());
         result_.interval = options.duration / intervals_;
         result_.duration = options.duration;
     }
@@ -163,15 +136,13 @@ public:
         const auto look = [this](double t, std::span<const double> y, std::span<const double>) {
             watch_(t, y.data());
         };
-        Eigen::VectorXd sums = Eigen::VectorXd::Zero(columns_);
-        double trace = 0, counted = 0;
-        std::vector<LyapunovExponents::Row> all;
-        const int begin = static_cast<int>(forgotten * intervals_);
+        Eigen::MatrixXd& Q = stretching_->vectors;
+        const int begin = static_cast<int>(forgotten_part * intervals_);
         for (int k = 0; k < intervals_; ++k) {
             if (options_.progress) options_.progress(say("the motion"), static_cast<double>(k) / intervals_);
             const double t = start_ + result_.interval * k;
             std::vector<double> whole = y_;
-            whole.insert(whole.end(), Q_.data(), Q_.data() + Q_.size());
+            whole.insert(whole.end(), Q.data(), Q.data() + Q.size());
             whole.push_back(0);
             const Trajectory motion = integrate(both, whole,
                                                 {.start = t,
@@ -183,70 +154,20 @@ public:
                 throw IntegrationError(motion.failure->message, motion.failure->time, motion.failure->state);
             const auto end = motion.final_state();
             std::copy(end.begin(), end.begin() + N_, y_.begin());
-            Q_ = Eigen::Map<const Eigen::MatrixXd>(end.data() + N_, N_, columns_);
+            Q = Eigen::Map<const Eigen::MatrixXd>(end.data() + N_, N_, columns_);
             const Eigen::MatrixXd along = space_.settle_at(t + result_.interval, y_.data());
             if (space_.constrained()) {
                 Eigen::MatrixXd own(along.cols(), columns_);
                 for (Index i = 0; i < own.rows(); ++i)
-                    own.row(i) = Q_.row(space_.rows()[static_cast<std::size_t>(i)]);
-                Q_ = along * own;
+                    own.row(i) = Q.row(space_.rows()[static_cast<std::size_t>(i)]);
+                Q = along * own;
             }
-            const Eigen::VectorXd lengths = orthonormal();
-            if (k < begin) continue;
-            sums += lengths.array().log().matrix();
-            trace += end.back();
-            counted += result_.interval;
-            const Eigen::VectorXd now = sums / counted;
-            all.push_back({t + result_.interval - start_, {now.data(), now.data() + now.size()}});
+            stretching_->renew(t + result_.interval - start_, result_.interval, k >= begin, end.back());
         }
-        finish(all, trace / counted);
+        stretching_->finish(result_, !space_.constrained());
     }
 
 private:
-    /// Q of QR; the diagonal of R, positive.
-    Eigen::VectorXd orthonormal() {
-        Eigen::VectorXd lengths(columns_);
-        for (Index c = 0; c < columns_; ++c) {
-            for (int twice = 0; twice < 2; ++twice)
-                for (Index b = 0; b < c; ++b) Q_.col(c) -= Q_.col(b).dot(Q_.col(c)) * Q_.col(b);
-            lengths[c] = Q_.col(c).norm();
-            Q_.col(c) /= lengths[c];
-        }
-        return lengths;
-    }
-
-    void finish(std::vector<LyapunovExponents::Row> all, double divergence) {
-        put_in_order(all);
-        result_.exponents = all.back().estimates;
-        for (std::size_t c = 0; c < result_.exponents.size(); ++c) {
-            double low = HUGE_VAL, high = -HUGE_VAL;
-            for (std::size_t k = all.size() / 2; k < all.size(); ++k) {
-                low = std::min(low, all[k].estimates[c]);
-                high = std::max(high, all[k].estimates[c]);
-            }
-            result_.spread.push_back(high - low);
-        }
-        for (int row = 1; row <= most_rows; ++row)
-            result_.rows.push_back(all[all.size() * static_cast<std::size_t>(row) / most_rows - 1]);
-        if (!space_.constrained()) result_.divergence = divergence;
-        if (static_cast<int>(result_.exponents.size()) < result_.size) return;
-        result_.sum = 0;
-        for (const double one : result_.exponents) *result_.sum += one;
-    }
-
-    /// By the last estimate, the largest first: after a short motion the vectors need not be in this order.
-    void put_in_order(std::vector<LyapunovExponents::Row>& all) const {
-        const std::vector<double> last = all.back().estimates;
-        std::vector<std::size_t> order(last.size());
-        for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return last[a] > last[b]; });
-        for (LyapunovExponents::Row& row : all) {
-            const std::vector<double> before = row.estimates;
-            for (std::size_t k = 0; k < order.size(); ++k) row.estimates[k] = before[order[k]];
-        }
-    }
-
     LyapunovExponents& result_;
     const ExponentOptions& options_;
     Program program_;
@@ -255,7 +176,7 @@ private:
     TangentSpace space_;
     double start_;
     std::vector<double> y_;
-    Eigen::MatrixXd Q_;
+    std::optional<Stretching> stretching_;
     Index N_ = 0, columns_ = 0;
     int intervals_ = 0;
 };
@@ -266,11 +187,12 @@ LyapunovExponents lyapunov_exponents(Scene scene, const ExponentOptions& options
     argument::need_whole_nonnegative("count", options.count);
     argument::need_positive("duration", options.duration);
     argument::need_positive("tolerance", options.tolerance);
+    const bool goes_through = is_changed_by_events(scene);
+    const Derived d = derived(scene, {.by = options.by, .at = options.at, .with_states = !goes_through});
+    if (d.mechanism.has_modes() || jumps_along_motion(lowered(d).program))
+        return exponents_through_jumps(with_numbers(std::move(scene), options.at), options);
     LyapunovExponents result{.title = scene.title};
-    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true});
     result.warnings = d.warnings;
-    check_smooth(d.mechanism);
-    check_jumps(lowered(d).program);
     Start start = start_of(d.mechanism, options.at);
     assemble(start, d.mechanism, lower_constraints(d.mechanism), options.at);
     Benettin(result, d, start, options).go();

@@ -10,7 +10,8 @@
 /// tangent vectors along; again and again they are made orthonormal (QR), and the logarithms of the lengths that
 /// they had are added up (Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9). With constraints they
 /// are put back into the tangent space then, and the state onto the constraints. In floating point: how far the
-/// estimates have settled is told, and nothing is proved.
+/// estimates have settled is told, and nothing is proved. Through impacts, events that change the motion and jumps
+/// of forces the vectors go by saltation matrices (simulate/hybrid_variation.hpp).
 
 #include "analysis/derive/derived.hpp"
 
@@ -42,8 +43,8 @@ struct LyapunovExponents {
     double duration = 0, interval = 0;  ///< s; between two times of making them orthonormal
 };
 
-/// Throws ModelError for scenes with contacts, dry friction or impulses at events, and for a count that is too
-/// large; IntegrationError where the motion fails.
+/// Throws ModelError for scenes with dry friction, and for a count that is too large; IntegrationError where the
+/// motion fails, or jumps in a way that leaves no derivatives.
 LyapunovExponents lyapunov_exponents(Scene scene, const ExponentOptions& options = {});
 
 }  // namespace alembert

@@ -128,10 +128,7 @@ std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const Periodi
                                   rounding * std::max(1.0, std::abs(static_cast<double>(good.Phi[k])));
             Phi(i, c) = RealBall::about(good.Phi[k], unsure);
         }
-    std::vector<RootOf> roots = roots_of(characteristic(Phi));
-    std::sort(roots.begin(), roots.end(),
-              [](const RootOf& a, const RootOf& b) { return std::abs(a.value) > std::abs(b.value); });
-    return roots;
+    return multipliers_in_order(Phi);
 }
 
 /// Do the loads outside V have a potential too, at these values of the parameters, and are all constraints
@@ -154,6 +151,22 @@ bool has_hamiltonian(const Mechanism& m, const std::vector<double>& parameters) 
 }
 
 }  // namespace
+
+std::vector<RootOf> multipliers_in_order(const RealBallMatrix& Phi) {
+    std::vector<RootOf> roots = roots_of(characteristic(Phi));
+    std::sort(roots.begin(), roots.end(),
+              [](const RootOf& a, const RootOf& b) { return std::abs(a.value) > std::abs(b.value); });
+    return roots;
+}
+
+Decision decision_by_multipliers(const FloquetResult& found, const std::vector<RootOf>& roots, bool autonomous) {
+    Decision decision = judged(found, roots, autonomous, false, false);
+    if (decision.verdict != StabilityVerdict::undecided)
+        decision.assumed.push_back(
+            {StabilityAssumption::Kind::numbers, say("the motion and its multipliers through impacts, events and "
+                                                     "jumps of forces are in floating point")});
+    return decision;
+}
 
 FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides& exact_at, double period) {
     const Mechanism& m = d.mechanism;

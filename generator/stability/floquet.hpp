@@ -29,10 +29,21 @@ struct FloquetResult {
     std::vector<std::string> states;                    ///< independent coordinates and speeds
     std::vector<std::pair<std::string, double>> start;  ///< coordinates and speeds of the periodic motion
     Decision decision;
+    bool is_in_numbers = false;  ///< by a motion in floating point
 };
 
 /// `period`: 0 stands for the one of [simulation]. Throws ModelError where there are contacts, where the
 /// equations do not have this period, and where no periodic motion is found.
 FloquetResult floquet(const Derived& derived, const Start& start, const ExactOverrides& exact_at, double period);
+
+/// The same of a motion with impacts, events that change it, or forces that jump; `scene` has its own values. Such
+/// a motion is followed in floating point, and the decision says so.
+FloquetResult floquet_through_jumps(const Scene& scene, const std::string& by, double period);
+
+/// The eigenvalues by their size, the largest first.
+std::vector<RootOf> multipliers_in_order(const RealBallMatrix& Phi);
+
+/// The decision on a motion of which nothing but its multipliers is known, in numbers.
+Decision decision_by_multipliers(const FloquetResult& found, const std::vector<RootOf>& roots, bool autonomous);
 
 }  // namespace alembert

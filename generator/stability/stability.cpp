@@ -10,9 +10,11 @@
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
 #include "analysis/state/assemble.hpp"
+#include "analysis/state/given_values.hpp"
 #include "base/language/say.hpp"
 #include "model/energy.hpp"
 #include "program/lower/lower.hpp"
+#include "program/switches.hpp"
 #include "stability/arnold.hpp"
 #include "stability/conservative.hpp"
 #include "stability/critical.hpp"
@@ -299,16 +301,25 @@ Decision undecided_at_fold() {
                 "the initial value in the scene")};
 }
 
-Stability stability_of_periodic(const Derived& d, const StabilityOptions& options) {
-    Stability result{.title = d.scene.title};
-    result.warnings = d.warnings;
+FloquetResult periodic_multipliers(const Derived& d, const StabilityOptions& options) {
+    if (d.mechanism.has_modes() || jumps_along_motion(lowered(d).program))
+        return floquet_through_jumps(with_numbers(d.scene, options.at), options.by, options.period);
     Start start = start_of(d.mechanism, options.at);
     assemble(start, d.mechanism, lower_constraints(d.mechanism), options.at);
-    const FloquetResult found = floquet(d, start, options.exact_at, options.period);
+    return floquet(d, start, options.exact_at, options.period);
+}
+
+Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
+    const bool goes_through = is_changed_by_events(scene);  // else it is told that equations stand for all
+    const Derived d =
+        derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = !goes_through});
+    Stability result{.title = d.scene.title};
+    result.warnings = d.warnings;
+    const FloquetResult found = periodic_multipliers(d, options);
     result.period = found.period;
     result.multipliers = found.multipliers;
     result.radii = found.radii;
-    result.certain = true;
+    result.certain = !found.is_in_numbers;
     result.states = found.states;
     result.periodic_start = found.start;
     take(result, found.decision);
@@ -323,7 +334,7 @@ std::optional<Stability> by_own_period(Scene scene, StabilityOptions options) tr
     const std::optional<double> period = own_period(d, start_of(d.mechanism, options.at));
     if (!period) return {};
     options.period = *period;
-    Stability result = stability_of_periodic(d, options);
+    Stability result = stability_of_periodic(d.scene, options);
     result.is_own_period = true;
     return result;
 } catch (const ModelError&) {
@@ -442,9 +453,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
             "a "
             "[polynomial] or a periodic motion"));
     if (scene.polynomial) return stability_of_polynomial(scene, options);
-    if (periodic)
-        return stability_of_periodic(
-            derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true}), options);
+    if (periodic) return stability_of_periodic(std::move(scene), options);
     Stability result{.title = scene.title};
     LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
     try {

@@ -61,4 +61,10 @@ Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::str
     return scene;
 }
 
+Scene with_numbers(Scene scene, const std::vector<std::pair<std::string, double>>& at) {
+    std::vector<std::pair<std::string, std::string>> typed;
+    for (const auto& [name, value] : at) typed.emplace_back(name, fmt::format("{:.17g}", value));
+    return with_values(std::move(scene), typed);
+}
+
 }  // namespace alembert

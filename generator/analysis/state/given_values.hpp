@@ -20,6 +20,9 @@ namespace alembert {
 /// scene does not have, or that follows from others, and for a value that is not finite.
 Scene with_values(Scene scene, const std::vector<std::pair<std::string, std::string>>& at);
 
+/// The same of numbers.
+Scene with_numbers(Scene scene, const std::vector<std::pair<std::string, double>>& at);
+
 /// Notes behind the scene's text what is given for this run: by the text an interrupted sweep knows its scene
 /// again.
 void note_given(Scene& scene, const std::string& given);

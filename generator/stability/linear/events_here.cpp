@@ -70,4 +70,10 @@ std::optional<std::string> disturbed_by_event(const Derived& d, const Start& sta
     return at_this_time;
 }
 
+bool is_changed_by_events(const Scene& scene) {
+    return std::any_of(scene.events.begin(), scene.events.end(), [](const EventRule& one) {
+        return !one.set.empty() || !one.rates.empty() || !one.impulses.empty();
+    });
+}
+
 }  // namespace alembert

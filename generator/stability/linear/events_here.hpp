@@ -21,4 +21,7 @@ namespace alembert {
 /// speeds.
 std::optional<std::string> disturbed_by_event(const Derived& derived, const Start& start);
 
+/// Whether some events of a scene set states or rates, or give impulses.
+bool is_changed_by_events(const Scene& scene);
+
 }  // namespace alembert
