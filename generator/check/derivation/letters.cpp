@@ -176,8 +176,9 @@ Letters::Letters(const Scene& scene) {
     }
     // A rate that is typed as w is written ω.
     const auto know_rate = [&](const std::string& name, const std::string& unit) {
-        const bool is_rate =
-            unit == "rad/s" || unit == "1/s" || unit == "deg/s" || unit == "rpm" || unit == "s^-1";
+        const bool is_bare = name.find_first_not_of("w0123456789") == std::string::npos;  // w, w0: no width
+        const bool is_rate = unit == "rad/s" || unit == "1/s" || unit == "deg/s" || unit == "rpm" ||
+                             unit == "s^-1" || (unit.empty() && is_bare);
         if (!name.starts_with("w") || (!is_rate && !moving_.contains(name))) return;
         for (Letter letter : letters_of(name))
             if (letter.base == "w") letter.base = "omega", written_so_.emplace(letter, name);
