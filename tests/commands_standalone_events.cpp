@@ -80,4 +80,44 @@ TEST_CASE("emit: a main program does not end where an event comes near zero, or 
     }
 }
 
+// The mass 2 - t/2 of the rocket is used up at t = 4; the second particle keeps the equations regular there.
+TEST_CASE("emit: a main program ends with status 4 where nothing is left of a mass") {
+    const auto scene = [](const char* rate) {
+        return temporary("burnt.toml", fmt::format(R"toml([coordinates]
+h = {{ initial = 0, rate = 1 }}
+[states]
+m = {{ rate = "{}", initial = 2 }}
+[[particle]]
+name = "rocket"
+mass = "m"
+position = [0, "h"]
+leaves = [0, "-m"]
+[[particle]]
+name = "load"
+mass = 3
+position = [0, "h"]
+[simulation]
+duration = 5
+)toml",
+                                                   rate));
+    };
+    for (const std::string language : {"c", "cpp"}) {
+        const std::string compiler = language == "c" ? "cc -std=c99 -pedantic -Wall -Wextra -Werror -O1"
+                                                     : "c++ -std=c++20 -Wall -Wextra -Werror -O1";
+        const auto ended = [&](const char* rate) {
+            const std::string folder = temporary_folder("burnt-" + language);
+            const auto emitted = run({"emit", scene(rate), "-o", folder, "--language", language, "--standalone"});
+            REQUIRE_MESSAGE(emitted.exit == 0, emitted.err);
+            return run_shell(fmt::format("cd {0} && {1} burnt_main.{2} {3} -lm -o run && ./run", folder, compiler,
+                                         language, language == "c" ? "burnt.c" : ""));
+        };
+        CAPTURE(language);
+        const auto burnt = ended("-0.5"), kept = ended("-0.25");
+        CHECK(burnt.exit == 4);
+        CHECK_MESSAGE(burnt.err.find("at t = 4 nothing is left of the mass of 'rocket'") != std::string::npos,
+                      burnt.err);
+        CHECK(kept.exit == 0);
+    }
+}
+
 }  // namespace commands_standalone_events

@@ -23,6 +23,7 @@
 #include "program/lower/robot_functions.hpp"
 #include "scene/text.hpp"
 #include "simulate/corners.hpp"
+#include "simulate/mass_watch.hpp"
 #include "simulate/narrow_places.hpp"
 #include "simulate/wrenches.hpp"
 
@@ -55,6 +56,10 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
     std::vector<StopEvent> stops;
     for (std::size_t k = 0; k < m.event_actions.size(); ++k)
         if (m.event_actions[k].stop) stops.push_back({static_cast<int>(k), m.event_actions[k].direction});
+    const std::vector<std::string> masses = changing_masses(e.scene);
+    for (std::size_t k = 0; k < masses.size(); ++k)
+        stops[stops.size() - masses.size() + k].failure =
+            fmt::format("nothing is left of the mass of '{}'", masses[k]);
     return standalone(
         program,
         {.t = start.t,
@@ -286,6 +291,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
                 in_quotes(options.name)));
     const std::string command = command_of(scene, options);
     for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
+    if (options.standalone) scene = with_masses_watched(std::move(scene));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     if (e.mechanism.has_modes())
         e.warn("left_out",

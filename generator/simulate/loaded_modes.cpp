@@ -160,6 +160,14 @@ void LoadedMode::hold_sides(double t, const double* state) {
     if (contact.switching) hold(sides_at(*contact.switching, t, state, contact.system.rhs.dimension, side_sizes));
 }
 
+void LoadedMode::rates_on_sides(double t, const double* state, double* rate) {
+    const std::vector<double> sigma =
+        sides_at(*contact.switching, t, state, contact.system.rhs.dimension, side_sizes);
+    hold(sigma);
+    sides_are_known = false;
+    contact.switching->rates(t, state, sigma.data(), rate);
+}
+
 void LoadedMode::measure_sides(const Trajectory& motion) {
     if (!contact.switching) return;
     const std::size_t count = side_sizes.size();
@@ -251,12 +259,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     Rhs& rhs = mode.contact.system.rhs;
     rhs.context = std::make_shared<LoadedMode* const>(self);
     rhs.call = [](const void* context, double t, const double* state, double* rate) {
-        LoadedMode& own = **static_cast<LoadedMode* const*>(context);
-        const std::vector<double> sigma =
-            sides_at(*own.contact.switching, t, state, own.contact.system.rhs.dimension, own.side_sizes);
-        own.hold(sigma);  // events that are evaluated with these rates are those of this state
-        own.sides_are_known = false;
-        own.contact.switching->rates(t, state, sigma.data(), rate);
+        (*static_cast<LoadedMode* const*>(context))->rates_on_sides(t, state, rate);
     };
     rhs.jacobian = nullptr;
     rhs.energies = nullptr;

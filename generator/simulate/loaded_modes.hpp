@@ -40,6 +40,8 @@ struct LoadedMode {
     /// is evaluated with `par`.
     void hold_sides(double t, const double* state);
     void hold(const std::vector<double>& sigma);
+    /// The rates at a state, on whatever sides it is. Events that are evaluated then are those of this state too.
+    void rates_on_sides(double t, const double* state, double* rate);
     /// Updates `side_sizes` from a motion.
     void measure_sides(const Trajectory& motion);
 };

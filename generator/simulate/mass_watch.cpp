@@ -37,8 +37,24 @@ State<double> MassWatch::pose_at(double t, std::span<const double> state) const 
 }
 
 bool changes_masses(const Scene& scene) {
-    return std::any_of(scene.particles.begin(), scene.particles.end(),
-                       [](const Particle& one) { return one.leaves.has_value(); });
+    return !changing_masses(scene).empty();
+}
+
+std::vector<std::string> changing_masses(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Particle& one : scene.particles)
+        if (one.leaves) names.push_back(one.name.text);
+    return names;
+}
+
+Scene with_masses_watched(Scene scene) {
+    for (const Particle& one : scene.particles)
+        if (one.leaves)
+            scene.events.push_back({.name = {"mass of " + one.name.text, one.name.place},
+                                    .when = one.mass,
+                                    .stop = true,
+                                    .direction = -1});
+    return scene;
 }
 
 }  // namespace alembert

@@ -47,4 +47,10 @@ private:
 /// Whether a mass of the scene changes along a run.
 bool changes_masses(const Scene& scene);
 
+/// The scene with an event, behind its own ones, that stops the motion where nothing is left of a mass that
+/// changes: for what is written and runs by itself. They are listed in the order of `changing_masses`.
+Scene with_masses_watched(Scene scene);
+/// The names of the particles whose masses change.
+std::vector<std::string> changing_masses(const Scene& scene);
+
 }  // namespace alembert

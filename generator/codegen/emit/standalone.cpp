@@ -64,8 +64,16 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("quick_times", std::to_string(quick.size()));
     file.set("quick", fmt::format("{}", fmt::join(quick, ",\n")));
     std::vector<int> events, directions;
-    for (const StopEvent& stop : start.stops) events.push_back(stop.event), directions.push_back(stop.direction);
+    std::vector<std::string> failures;
+    bool can_fail = false;
+    for (const StopEvent& stop : start.stops) {
+        events.push_back(stop.event), directions.push_back(stop.direction);
+        failures.push_back(stop.failure.empty() ? "0" : "\"" + stop.failure + "\"");
+        can_fail = can_fail || !stop.failure.empty();
+    }
     file.set("has_stop", !events.empty());
+    file.set("can_fail", can_fail);
+    file.set("failures", fmt::format("{}", fmt::join(failures, ", ")));
     file.set("events", std::to_string(program.nodes_of(Group::event).size()));
     file.set("stops_count", std::to_string(events.size()));
     file.set("stop_events", fmt::format("{}", fmt::join(events, ", ")));

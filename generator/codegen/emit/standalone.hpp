@@ -8,6 +8,8 @@
 ///
 /// The template is templates/standalone.mustache.
 
+#include <string>
+
 #include "alembert/ode/input_time_scale.hpp"
 #include "codegen/emit/emit.hpp"
 
@@ -16,6 +18,7 @@ namespace alembert {
 /// An event that ends the motion where its function passes zero: up (+1), down (−1), or in both directions (0).
 struct StopEvent {
     int event, direction;
+    std::string failure = {};  ///< why the motion cannot go on from there; empty where it may end
 };
 
 struct StandaloneStart {

@@ -44,7 +44,7 @@ public:
         return agrees();
     }
 
-    std::optional<FilippovMode> sides() {
+    std::optional<FilippovMode> sides() const {
         const double run = at_.options.duration,
                      first = std::max(shortest * run, 64 * tolerance::epsilon * std::abs(at_.t));
         FilippovMode result = at_.sides;
@@ -140,10 +140,13 @@ bool is_of_friction(const SwitchingScales& moment, const std::vector<int>& open)
 
 }  // namespace
 
+bool rates_are_continuous(const SwitchingScales& moment, const std::vector<int>& open) {
+    return !open.empty() && !is_of_friction(moment, open) && TrialMotion(moment, open).is_continuous();
+}
+
 std::optional<FilippovMode> continuous_sides(const SwitchingScales& moment, const std::vector<int>& open) {
-    if (open.empty() || is_of_friction(moment, open)) return std::nullopt;
-    TrialMotion trial(moment, open);
-    return trial.is_continuous() ? trial.sides() : std::nullopt;
+    if (!rates_are_continuous(moment, open)) return std::nullopt;
+    return TrialMotion(moment, open).sides();
 }
 
 }  // namespace alembert

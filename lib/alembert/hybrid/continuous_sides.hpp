@@ -17,8 +17,10 @@
 
 namespace alembert {
 
-/// `open` are the functions that are zero; those of friction have no such sides. Nothing either where the trial
-/// cannot be followed so far that all is decided.
+/// Whether the rates are the same on all sides of these functions, which are zero; never of those of friction.
+bool rates_are_continuous(const SwitchingScales& moment, const std::vector<int>& open);
+
+/// Nothing either where the trial cannot be followed so far that all is decided.
 std::optional<FilippovMode> continuous_sides(const SwitchingScales& moment, const std::vector<int>& open);
 
 }  // namespace alembert

@@ -26,6 +26,7 @@ namespace {
 constexpr int most_undecided = 6;  // the most signs that may be undecided together: at most 3⁶ choices are tried
 constexpr double most_gathered = 1e3;  // times the error of a step, which a motion has gathered at most
 constexpr int most_in_one_place = 50;  // the most changes without an advance of time
+constexpr int few_in_one_place = 4;    // after so many signs that change nothing wait until errors are left behind
 constexpr double idle_share =
     1e-3;  // of what errors of the tolerance make of a function, which is idle up to that
 constexpr double negative_normal = 1e-6;  // relative to the largest so far, beyond doubt
@@ -434,6 +435,11 @@ private:
                             system_.names[open.front()], open.size() - 1, now_.t, most_undecided));
         }
         for (const int k : open) set_idle(k, 0);
+        if (in_one_place_ > few_in_one_place && rates_are_continuous(moment(), open)) {
+            FilippovMode stay = sides_;  // where they are below errors, their signs do not matter
+            for (const int k : open) stay[k] = 0;
+            return go_to(stay, open, all_zeros);
+        }
         const std::vector<SideChoice> found = side_choices(system_, sides_, open, now_.t, now_.state);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];

@@ -23,7 +23,8 @@
 /// (`bounds`), and a contact with zero sliding velocity begins to slide only where sticking would need more.
 ///
 /// A function whose sign changes nothing where it is zero, and which stays there, is followed with σ = 0 until it
-/// leaves its zero by more than errors of the tolerance.
+/// leaves its zero by more than errors of the tolerance. Where rates tell nothing of such functions, a short trial
+/// of the motion does (continuous_sides.hpp).
 ///
 /// If several functions are zero at once, all choices of sides are tried, and the consistent one is taken.
 ///
