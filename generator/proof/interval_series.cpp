@@ -5,6 +5,7 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "proof/interval_matrix.hpp"
 #include "proof/interval_of.hpp"
@@ -197,9 +198,13 @@ void IntervalSeries::function_at_zero(int id) {
             return through(function_of(node.op, a[0]));
         case Kind::turn: {
             const Interval* const b = at(node.b, 0);
+            Interval* const to = at(id, 0);
+            if (a[0].has(0) && b[0].low <= 0) {  // the cut, where atan2 jumps
+                std::fill(to, to + width_, Interval::whole());
+                return;
+            }
             const Bounds by_a = known(atan2(on(a[0]), {b[0], {}, {}})),
                          by_b = known(atan2({a[0], {}, {}}, on(b[0])));
-            Interval* const to = at(id, 0);
             to[0] = by_a.value;
             for (std::size_t j = 1; j < width_; ++j) to[j] = by_a.first * a[j] + by_b.first * b[j];
             return;
@@ -250,6 +255,10 @@ void IntervalSeries::next(int id, int k) {
 void IntervalSeries::next_of_function(int id, int k) {
     const SeriesNode& node = r_.nodes[id];
     Interval* const to = at(id, k);
+    if (!std::isfinite(at(id, 0)[0].size())) {  // no series where the function has no value, or jumps
+        std::fill(to, to + width_, Interval::whole());
+        return;
+    }
     const Interval one{1, 1}, part = inverse(Interval{static_cast<double>(k), static_cast<double>(k)});
     const auto times = [](double j) { return Interval{j, j}; };
     const auto scale = [&](const Interval& factor) {
