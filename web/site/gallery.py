@@ -88,6 +88,7 @@ def page(scene, kept, gallery, language):
     """The page of a scene, and the files that it shows."""
     word = WORDS[language]
     lines = ["---", "search: {boost: 0.5}", "---", "", f"# {escaped(scene.title)}", ""]  # behind the pages that explain
+    lines += [f"[{word['gallery']}](index{ENDING[language]})", ""]
     if scene.notes:
         lines += [escaped(scene.notes), ""]
     if scene.source:
