@@ -17,6 +17,7 @@
 namespace commands_places {
 
 using alembert::test::Json;
+using alembert::test::number;
 using alembert::test::run;
 using alembert::test::simulated;
 using alembert::test::temporary;
@@ -215,6 +216,33 @@ TEST_CASE("simulate: functions that change little cost no steps") {
     const Json far = simulated(mass(-1, 10, "[energy]\npotential = \"exp(-((x - 3)/0.01)^2)\"\n"));
     CHECK(far["steps"].get<int>() == 1);
     CHECK(far["evaluations"].get<int>() < 100);
+}
+
+TEST_CASE("simulate: narrow regions that are passed more than once, of waves and of a ring") {
+    // v² after passing pulses of the height F where cos(4 x) = 0.87: each adds 2 F w √π/|4 sin(4 x)| to it.
+    constexpr double F = 30, w = 3e-4, c = 0.87;
+    const double each = 2 * F * w * std::sqrt(std::acos(-1.0)) / (4 * std::sqrt(1 - c * c));
+    const std::string waves =
+        temporary("waves.toml",
+                  "[coordinates]\nx = { initial = 0, rate = 1 }\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
+                  "\"30*exp(-((cos(4*x)-0.87)/3e-4)^2)\"\n[simulation]\nduration = 1.5\n");
+    for (const std::string method : {"auto", "dop853", "verner98"}) {
+        CAPTURE(method);
+        const Json motion = Json::parse(run({"simulate", waves, "--method", method, "--json"}).out);
+        CHECK(number(motion["final"], "rates", "x") == doctest::Approx(std::sqrt(1 + 2 * each)).epsilon(1e-6));
+    }
+    // A central force does no work between points of the same potential outside of the ring.
+    const std::string ring = temporary("ring.toml",
+                                       "[coordinates]\nx = { initial = -2, rate = 1 }\ny = { initial = 0.3, rate "
+                                       "= 0.1 }\n[energy]\nkinetic = \"(x'^2 + "
+                                       "y'^2)/2\"\n[forces]\nx = \"20*x*exp(-((sqrt(x^2+y^2)-1)/0.001)^2)\"\ny = "
+                                       "\"20*y*exp(-((sqrt(x^2+y^2)-1)/0.001)^2)\"\n[simulation]\nduration = 4\n");
+    for (const std::string method : {"auto", "dop853", "verner98"}) {
+        CAPTURE(method);
+        const Json motion = Json::parse(run({"simulate", ring, "--method", method, "--json"}).out);
+        const double u = number(motion["final"], "rates", "x"), v = number(motion["final"], "rates", "y");
+        CHECK(u * u + v * v == doctest::Approx(1.01).epsilon(1e-8));
+    }
 }
 
 }  // namespace commands_places

@@ -3,6 +3,8 @@
 // the proof but the graph, and closed forms.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -140,6 +142,24 @@ TEST_CASE("proof: where it ends, what is refused") {
     CHECK(rolls.exit == 3);
     CHECK(rolls.err.find("constraints are not proved") != std::string::npos);
     CHECK(run({"simulate", escape, "--proof", "--method", "taylor"}).exit == 3);
+}
+
+TEST_CASE("proof: where a function jumps or has a pole it ends") {
+    for (const auto& [force, at] : {std::pair("atan2(t-1,-1)", 1.0),
+                                    {"atan2(sin(t),cos(t))", std::acos(-1.0)},
+                                    {"-atan2(x-1,-1)", 0.9},
+                                    {"atan(1/(t-1))", 1.0},
+                                    {"tan(t)", std::acos(0.0)}}) {
+        CAPTURE(force);
+        const Proof proof =
+            prove(parse_scene(fmt::format("[coordinates]\nx = {{ initial = 0, rate = 1 }}\n[energy]\nkinetic = "
+                                          "\"x'^2/2\"\n[forces]\nx = \"{}\"\n",
+                                          force),
+                              "jump.toml"),
+                  {.duration = 4});
+        CHECK(!proof.motion.complete);
+        CHECK(proof.motion.reached <= at + 0.6);
+    }
 }
 
 }  // namespace commands_proof

@@ -359,4 +359,25 @@ duration = 6
     CHECK_MESSAGE(result.exit == 0, result.err);
 }
 
+TEST_CASE("tables: steps of sweeps end at knots, those of a fixed length too") {
+    const std::string scene = temporary(
+        "bump.toml",
+        on_line(
+            "initial = 0, rate = 5",
+            "a = { arguments = [\"x\"], outside = \"hold\", points = [[-10,0],[0.45,0],[0.7,8],[0.95,0],[10,0]] "
+            "}\nb = { arguments = [\"x'\"], points = [[-9,-3],[0,0],[1,2],[2,1],[9,4]] }",
+            "-3*x - a(x) - b(x')", "[simulation]\nduration = 2\n"));
+    for (const std::vector<std::string>& steps :
+         {std::vector<std::string>{"--method", "rk4", "--step", "0.05"}, {"--tolerance", "1e-10"}}) {
+        std::vector<std::string> one{"simulate", scene, "--json"},
+            all{"sweep", scene, "--vary", "t=0:0:1", "-o", "/dev/stdout"};
+        one.insert(one.end(), steps.begin(), steps.end());
+        all.insert(all.end(), steps.begin(), steps.end());
+        const double x = number(Json::parse(run(one).out)["final"], "coordinates", "x");
+        const std::string table = run(all).out;
+        CAPTURE(table);
+        CHECK(table.find(fmt::format("{:.7f}", x).substr(0, 9)) != std::string::npos);
+    }
+}
+
 }  // namespace commands_table_knots

@@ -301,6 +301,12 @@ Drawing Sketch::finished() {
         drawing.traced_names.push_back(m.masses[k].origin.name);
     }
     drawing.program = begun(m);
+    if (!m.states.empty()) {  // which stand behind the rates, as in the program of the motion
+        for (int i = 0; i < m.size(); ++i)
+            drawing.program.speeds.push_back({.name = m.q[i].get_name() + "'", .unit = {}, .rate_of = i});
+        for (const auto& state : m.states)
+            drawing.program.speeds.push_back({.name = state.derivative[0].get_name(), .unit = state.unit});
+    }
     std::vector<GiNaC::ex> list;
     for (const int track : spot_tracks_) list.insert(list.end(), values_[track].begin(), values_[track].end());
     const std::vector<int> nodes = lower_expressions(drawing.program, m, list);

@@ -106,6 +106,11 @@ std::optional<double> PlaceWatch::look(const StepView& step, Function function) 
             add(step, function, part);
         }
     }
+    // Intervals are too wide to tell, as those of a polynomial in sines over turns: they are not over half the
+    // step.
+    const bool is_open = !pieces_.empty() && pieces_.front().values.high - pieces_.front().values.low >
+                                                 a_part * (seen_.high - seen_.low);
+    if (is_open) return 0.5;
     return std::nullopt;
 }
 
