@@ -31,6 +31,7 @@
 #include "present/report/linearization.hpp"
 #include "present/report/marked.hpp"
 #include "present/report/marked_page.hpp"
+#include "present/report/proof.hpp"
 #include "present/report/scene_page.hpp"
 #include "present/report/stability.hpp"
 #include "present/report/stability_charts.hpp"
@@ -203,6 +204,12 @@ Answer do_eval(Scene scene, const Asked& asked) {
 
 Answer do_inverse(Scene scene, const Asked& asked) {
     return shown(inverse(std::move(scene), {.by = asked.by(), .at = asked.at()}));
+}
+
+Answer do_prove(Scene scene, const Asked& asked) {
+    RunOptions wishes{.by = asked.by(), .duration = asked.real("duration"), .sample = asked.real("sample")};
+    wishes.progress = asked.progress;
+    return shown(prove(asked.given(std::move(scene)), wishes));
 }
 
 Answer do_linearize(Scene scene, const Asked& asked) {
@@ -422,6 +429,7 @@ const std::map<std::string, VerbFunction> verb_functions = {{"agree", do_agree},
                                                             {"kinematics", do_kinematics},
                                                             {"linearize", do_linearize},
                                                             {"locus", do_locus},
+                                                            {"prove", do_prove},
                                                             {"report", do_report},
                                                             {"stability", do_stability},
                                                             {"sweep", do_sweep}};

@@ -1101,4 +1101,22 @@ TEST_CASE("readings: a wrong moment of inertia that the energy of a turning part
     CHECK(with("\\tfrac25") == "MF");
 }
 
+TEST_CASE("readings: what only looks like a condition, a question, a number of an equation or a running index") {
+    const std::string ep =
+        "[parameters]\nm = 1\nk = 20\nl0 = 1\ng = 9.81\n[coordinates]\nr = 1\ntheta = 0.2\n[energy]\nkinetic = "
+        "\"m*(r'^2 + r^2*theta'^2)/2\"\npotential = \"k*(r - l0)^2/2 - m*g*r*cos(theta)\"\n";
+    const std::string still = "m\\ddot r + k(r-l_0) - m g\\cos\\theta = 0$";
+    CHECK(statuses(ep, "Since $\\dot\\theta \\ne 0$, $" + still + ".").back() != 'R');
+    CHECK(statuses(ep, "We do not assume $\\dot\\theta = 0$. Then $" + still + ".").back() != 'R');
+    CHECK(statuses(ep, "Setting $\\dot\\theta = 0$: $$r\\ddot\\theta + g\\sin\\theta = 0$$ $$" + still + "$")
+              .back() != 'M');
+    CHECK(statuses(
+              ep,
+              "The equation $m\\ddot r - m r\\dot\\theta^2 - k(r-l_0) - m g\\cos\\theta = 0$ gives the length.") ==
+          "M");
+    CHECK(statuses(ep, "$$p_\\theta = \\tfrac12 m r\\dot\\theta (2 r)$$") == "R");
+    CHECK(statuses(ep, "We do get $p_\\theta = m r\\dot\\theta$, don't we?") == "M");
+    CHECK(statuses(two_masses, "$$T = \\frac12 m_i\\dot x_i^2$$").find('M') == std::string::npos);
+}
+
 }  // namespace derivation_readings

@@ -176,6 +176,7 @@ class Verbs(unittest.TestCase):
                   "emit": {"frame", "wrench", "fmu"},  # frames=[…], wrenches=[…]
                   "fmu": {"fmu"},
                   "report": {"derivation", "watch", "open"},  # of the command line
+                  "simulate": {"proof"},  # Scene.prove
                   "sweep": {"vary", "vary_from", "chunk"}}
         forms = {"check": {"claims"}, "emit": {"folder", "language", "frames", "wrenches"}, "fmu": {"path"},
                  "report": {"path"}, "simulate": {"sensitivity_rows"}, "sweep": {"values", "grid", "path"}}

@@ -75,23 +75,34 @@ Interval interval_of(const Rational& number) {
     return {std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)};
 }
 
-Interval interval_of(Quad number) {
-    const auto near = static_cast<double>(number);
-    if (static_cast<Quad>(near) == number) return {near, near};
-    return {std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)};
-}
-
-std::vector<Interval> intervals_of_constants(const Program& program, const std::vector<Interval>& parameters) {
+std::vector<Interval> intervals_of(const Program& program, const IntervalState& state) {
     std::vector<Interval> value(static_cast<std::size_t>(program.size()), Interval::whole());
+    const auto given = [&](const Variable& variable) {
+        const auto i = static_cast<std::size_t>(variable.index);
+        const auto at = [&](const std::vector<Interval>& list) {
+            return i < list.size() ? list[i] : Interval::whole();
+        };
+        switch (variable.kind) {
+            case Variable::Kind::parameter:
+                return at(state.parameters);
+            case Variable::Kind::time:
+                return state.t;
+            case Variable::Kind::coordinate:
+                return at(state.q);
+            case Variable::Kind::rate:
+                return at(state.qdot);
+            default:
+                return Interval::whole();
+        }
+    };
     for (int id = 0; id < program.size(); ++id) {
         const Node& node = program[id];
-        if (!node.is_constant()) continue;
         switch (node.op) {
             case Op::number:
                 value[id] = interval_of(node.number);
                 break;
             case Op::variable:
-                value[id] = parameters.at(static_cast<std::size_t>(node.variable.index));
+                value[id] = given(node.variable);
                 break;
             case Op::sum: {
                 Interval sum = interval_of(node.number);

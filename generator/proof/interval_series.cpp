@@ -52,7 +52,7 @@ Bounds function_of(Op op, const Interval& x) {
 
 IntervalSeries::IntervalSeries(Recurrences recurrences, const std::vector<Interval>& parameters)
     : r_(std::move(recurrences)) {
-    const std::vector<Interval> values = intervals_of_constants(r_.program, parameters);
+    const std::vector<Interval> values = intervals_of(r_.program, {.parameters = parameters});
     for (const SeriesNode& node : r_.nodes) {
         Weights w;
         for (const Weight& constant : node.constants) w.constant = w.constant + weight(constant, values);

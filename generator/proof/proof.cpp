@@ -34,13 +34,12 @@ Proof prove(Scene scene, const RunOptions& wishes) {
     const Program program = lowered(result).program;
     Start start = start_of(m);
     assemble(start, m, lower_constraints(m), {});
-    const QuadStart exact = quad_start(m, result.equations, start, wishes.duration);
+    const IntervalStart exact = interval_start(m, result.equations, start, wishes.duration);
     for (const Quantity& q : program.coordinates) result.names.push_back(q.name);
     if (program.speeds.empty())
         for (const Quantity& q : program.coordinates) result.names.push_back(q.name + "'");
     for (const Quantity& u : program.speeds) result.names.push_back(u.name);
-    ProofOptions options{.duration = static_cast<double>(exact.duration),
-                         .sample = wishes.sample.value_or(start.sample)};
+    ProofOptions options{.sample = wishes.sample.value_or(start.sample)};
     if (wishes.progress) options.progress = [&](double part) { wishes.progress(say("proving the motion"), part); };
     result.motion = proved_motion(program, exact, options);
     return result;

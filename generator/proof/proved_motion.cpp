@@ -38,27 +38,29 @@ class Proving {
     static constexpr double local_error = 1e-16;  // that a step may add, as a part of max(1, |y|)
 
 public:
-    Proving(const Program& program, const QuadStart& start, const ProofOptions& options)
-        : options_(options), series_(recurrences(program), parameters_of(start)), n_(series_.size()) {
-        for (const Quad y : start.state) {
-            const Interval box = interval_of(y);
-            middle_.push_back(middle_of(box));
-            rest_.push_back(box - Interval{middle_.back(), middle_.back()});
+    Proving(const Program& program, const IntervalStart& start, const ProofOptions& options)
+        : options_(options), series_(recurrences(program), start.parameters), n_(series_.size()) {
+        for (const Interval& y : start.state) {
+            middle_.push_back(middle_of(y));
+            rest_.push_back(y - Interval{middle_.back(), middle_.back()});
         }
         turn_.assign(n_ * n_, 0);
+        size_.assign(n_, 0);
         for (std::size_t i = 0; i < n_; ++i) turn_[i * n_ + i] = 1;
-        t_ = begin_ = static_cast<double>(start.t);
-        result_.rows.push_back({{t_, t_}, box()});
+        t_ = begin_ = middle_of(start.t);
+        end_ = middle_of(start.end);
+        exact_begin_ = start.t;
+        exact_end_ = start.end;
+        result_.rows.push_back({t_, box()});
     }
 
     ProvedMotion run() {
-        const double end = begin_ + options_.duration;
         next_row_ = options_.sample > 0 ? 1 : 0;
-        while (t_ < end) {
-            if (options_.progress) options_.progress((t_ - begin_) / options_.duration);
+        while (t_ < end_) {
+            if (options_.progress) options_.progress((t_ - begin_) / (end_ - begin_));
             if (++result_.steps > options_.most_steps)
                 return given_up(say("{} steps were not enough", options_.most_steps));
-            if (!step(end)) return given_up(say("no box around the next step could be proved"));
+            if (!step()) return given_up(say("no box around the next step could be proved"));
             const Box now = box();
             for (const Interval& x : now)
                 if (!(width_of(x) <= options_.widest * std::max(1.0, x.size())))
@@ -70,16 +72,10 @@ public:
     }
 
 private:
-    static std::vector<Interval> parameters_of(const QuadStart& start) {
-        std::vector<Interval> result;
-        for (const Quad p : start.parameters) result.push_back(interval_of(p));
-        return result;
-    }
-
     ProvedMotion given_up(std::string why) {
         result_.reached = t_;
         result_.why = std::move(why);
-        if (result_.rows.back().t.high < t_) result_.rows.push_back({{t_, t_}, box()});
+        if (result_.rows.back().t < t_) result_.rows.push_back({t_, box()});
         return std::move(result_);
     }
 
@@ -100,7 +96,7 @@ private:
     /// The length for which the last terms are lost in rounding.
     double length(const IntervalSeries& at_middle) const {
         const int p = options_.order;
-        double h = options_.duration;
+        double h = end_ - begin_;
         for (const int k : {p - 1, p})
             for (std::size_t i = 0; i < n_; ++i) {
                 const double c = at_middle.coefficient(i, k).size(), y = std::max(1.0, std::abs(middle_[i]));
@@ -111,7 +107,7 @@ private:
 
     /// The length for which the remainder, which holds in the whole of a longer step, is lost in rounding.
     double of_remainder(const Box& remainder) const {
-        double h = options_.duration;
+        double h = end_ - begin_;
         for (std::size_t i = 0; i < n_; ++i)
             if (const double width = width_of(remainder[i]); width > 0)
                 h = std::min(
@@ -119,14 +115,15 @@ private:
         return h;
     }
 
-    bool step(double end) {
+    bool step() {
         const int p = options_.order;
-        const Interval t{t_, t_};
-        const Box here = box();
+        const Interval t = t_ == begin_ ? exact_begin_ : Interval{t_, t_};
+        Box here = box();  // and the middle, which the mean value theorem needs with it
+        for (std::size_t i = 0; i < n_; ++i) here[i] = hull(here[i], {middle_[i], middle_[i]});
         Box point;
         for (const double y : middle_) point.push_back({y, y});
         series_.from(t, point, {.order = p, .with_slopes = false});
-        double h = std::min(length(series_), end - t_);
+        double h = std::min(length(series_), end_ - t_);
         std::vector<Interval> at_point;
         for (std::size_t i = 0; i < n_; ++i)
             for (int k = 0; k < p; ++k) at_point.push_back(series_.coefficient(i, k));
@@ -142,19 +139,19 @@ private:
         double until = t_ + h;
         for (int halvings = 0;; ++halvings) {
             if (halvings > most_halvings || !(until > t_)) return false;
-            if (proves(over_box, Interval{until, until} - t, remainder)) break;
+            if (proves(t, over_box, until, remainder)) break;
             h /= 2;
             until = t_ + h;
         }
         until = std::min(until, t_ + of_remainder(remainder));
-        if (until >= end) until = end;
+        if (until >= end_) until = end_;
         const auto point_at = [&](std::size_t i, const Interval& s) {
             return horner([&](int k) { return k < p ? at_point[i * p + k] : remainder[i]; }, p, s);
         };
         const auto slope_at = [&](std::size_t i, std::size_t j, const Interval& s) {
             return horner([&](int k) { return slopes[(i * p + k) * n_ + j]; }, p - 1, s);
         };
-        add_rows(until, end, t, point_at, slope_at);
+        add_rows(until, t, point_at, slope_at);
         const Interval s = Interval{until, until} - t;
         Box change;  // from the middle, which is a number: little is lost in rounding
         std::vector<Interval> jacobian;
@@ -170,9 +167,10 @@ private:
 
     /// Whether the motions that start in the box stay for the step in one over which `remainder` holds the last
     /// coefficient.
-    bool proves(const std::vector<Interval>& over_box, const Interval& step, Box& remainder) {
+    bool proves(const Interval& t, const std::vector<Interval>& over_box, double until, Box& remainder) {
+        constexpr double margin = 1e-9;  // the decimal of a row may lie behind the number
         const int p = options_.order;
-        const Interval s{0, step.high};
+        const Interval s{0, (Interval{until, until} - t).high * (1 + margin)};
         const auto with = [&](std::size_t i, const Interval& last) {
             return horner([&](int k) { return k < p ? over_box[i * p + k] : last; }, p, s);
         };
@@ -184,7 +182,7 @@ private:
         }
         constexpr int most_rounds = 4;
         for (int round = 0; round < most_rounds; ++round) {
-            series_.from(Interval{t_, t_} + s, whole, {.order = p, .with_slopes = false});
+            series_.from(t + s, whole, {.order = p, .with_slopes = false});
             remainder.clear();
             bool holds = true;
             for (std::size_t i = 0; i < n_; ++i) {
@@ -202,10 +200,10 @@ private:
     }
 
     template <typename Point, typename Slope>
-    void add_rows(double until, double end, const Interval& t, const Point& point_at, const Slope& slope_at) {
+    void add_rows(double until, const Interval& t, const Point& point_at, const Slope& slope_at) {
         const Box rest = deviation();
-        const auto add = [&](const Interval& at) {
-            const Interval s = at - t;
+        const auto add = [&](double at, const Interval& exact) {
+            const Interval s = exact - t;
             ProvedRow row{.t = at, .box = {}};
             for (std::size_t i = 0; i < n_; ++i) {
                 Interval value = point_at(i, s);
@@ -215,12 +213,12 @@ private:
             result_.rows.push_back(std::move(row));
         };
         while (options_.sample > 0) {
-            const double at = begin_ + next_row_ * options_.sample;
-            if (!(at <= until) || at >= end) break;
-            add({at, at});
+            const double at = begin_ + static_cast<double>(next_row_) * options_.sample;
+            if (!(at <= until) || at >= end_) break;
+            add(at, {std::nextafter(at, -HUGE_VAL), std::nextafter(at, HUGE_VAL)});
             ++next_row_;
         }
-        if (until >= end) add({end, end});
+        if (until >= end_) add(end_, hull(exact_end_, {end_, end_}));
     }
 
     /// y = middle + change + J (turn rest): the new middle, and what is left in the coordinates of a new
@@ -237,6 +235,12 @@ private:
                 middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
                     middle_of(product[i * n_ + j]);
             }
+        std::vector<double> scale(n_);  // of each component, so that large ones do not wrap the others
+        for (std::size_t i = 0; i < n_; ++i) {
+            size_[i] = std::max({size_[i], std::abs(middle_[i]), change[i].size()});
+            scale[i] = size_[i] > 0 && std::isfinite(size_[i]) ? size_[i] : 1;
+            middle.row(static_cast<Eigen::Index>(i)) /= scale[i];
+        }
         std::vector<Eigen::Index> order(n_);  // the longest edges of the box first
         std::iota(order.begin(), order.end(), 0);
         const auto edge = [&](Eigen::Index j) {
@@ -249,7 +253,7 @@ private:
         std::vector<Interval> turned(n_ * n_);
         for (std::size_t i = 0; i < n_; ++i)
             for (std::size_t j = 0; j < n_; ++j) {
-                const double q = Q(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+                const double q = scale[i] * Q(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
                 turn_[i * n_ + j] = q;
                 turned[i * n_ + j] = {q, q};
             }
@@ -273,9 +277,10 @@ private:
     const ProofOptions& options_;
     IntervalSeries series_;
     std::size_t n_;
-    double t_ = 0, begin_ = 0;
+    double t_ = 0, begin_ = 0, end_ = 0;
+    Interval exact_begin_, exact_end_;
     long next_row_ = 0;
-    std::vector<double> middle_, turn_;
+    std::vector<double> middle_, turn_, size_;  ///< the size: the largest of each component so far
     Box rest_;
     ProvedMotion result_;
 };
@@ -286,7 +291,7 @@ std::optional<std::string> obstacle_to_proof(const Program& program) {
     return obstacle_to_recurrences(program);
 }
 
-ProvedMotion proved_motion(const Program& program, const QuadStart& start, const ProofOptions& options) {
+ProvedMotion proved_motion(const Program& program, const IntervalStart& start, const ProofOptions& options) {
     if (const auto obstacle = obstacle_to_proof(program)) throw ModelError(*obstacle);
     return Proving(program, start, options).run();
 }

@@ -3,7 +3,7 @@
 
 /// Boxes that contain the true motion.
 ///
-///     const ProvedMotion motion = proved_motion(program, start, {.duration = 10, .sample = 1});
+///     const ProvedMotion motion = proved_motion(program, start, {.sample = 1});
 ///     motion.rows.back().box[0];      // contains q_0 at motion.rows.back().t
 ///     motion.reached;                 // the time up to which all is proved
 ///
@@ -15,8 +15,8 @@
 /// boxes that turn do not grow (Lohner, Enclosing the solutions of ordinary initial and boundary value problems
 /// (1987)).
 ///
-/// The scene's decimals are exact; initial values that follow from expressions are known to 34 digits. Every
-/// rounding error is counted (alembert/base/interval.hpp).
+/// The scene's decimals are exact (interval_start.hpp), and every rounding error is counted
+/// (alembert/base/interval.hpp).
 
 #include <functional>
 #include <string>
@@ -24,7 +24,7 @@
 
 #include "alembert/base/interval.hpp"
 #include "program/program.hpp"
-#include "simulate/reference.hpp"
+#include "proof/interval_start.hpp"
 
 namespace alembert {
 
@@ -38,8 +38,8 @@ struct ProofOptions {
 };
 
 struct ProvedRow {
-    Interval t;
-    std::vector<Interval> box;  ///< coordinates, then speeds
+    double t = 0;
+    std::vector<Interval> box;  ///< coordinates, then speeds; at t, and at the decimal that rounds to it
 };
 
 struct ProvedMotion {
@@ -54,6 +54,6 @@ struct ProvedMotion {
 std::optional<std::string> obstacle_to_proof(const Program& program);
 
 /// Throws ModelError for the obstacle, if there is one.
-ProvedMotion proved_motion(const Program& program, const QuadStart& start, const ProofOptions& options);
+ProvedMotion proved_motion(const Program& program, const IntervalStart& start, const ProofOptions& options);
 
 }  // namespace alembert

@@ -331,8 +331,9 @@ Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
 std::optional<Stability> by_own_period(Scene scene, StabilityOptions options) try {
     scene.on_warning = [](const Warning&) {};  // they have been told
     const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at, .with_states = true});
-    const std::optional<double> period = own_period(d, start_of(d.mechanism, options.at));
-    if (!period) return {};
+    const Start start = start_of(d.mechanism, options.at);
+    const std::optional<double> period = own_period(d, start);
+    if (!period || disturbed_by_event(d, start)) return {};  // what it is after the event is another motion
     options.period = *period;
     Stability result = stability_of_periodic(d.scene, options);
     result.is_own_period = true;

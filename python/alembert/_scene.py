@@ -105,6 +105,11 @@ class Scene:
         """The loads for given accelerations: `at={"q1''": 2}`."""
         return self._ask("inverse", at=values_at(at), by=by)
 
+    def prove(self, at=None, *, by="", duration=None, sample=None):
+        """Intervals that contain the true motion: `.proof["rows"]` has `time`, `low` and `high`, at the end and each
+        `sample`; see `simulate --proof`."""
+        return self._ask("prove", at=values_at(at), by=by, **numbers(duration=duration, sample=sample))
+
     def impact(self, at=None):
         """The rates after the scene's impulses."""
         return self._ask("impact", at=values_at(at))

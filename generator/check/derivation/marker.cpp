@@ -133,7 +133,8 @@ void Marker::run() {
         if (statement_->sides.size() == 1) continue;  // a letter among the words of the next one
         special_.hear(statement_->words);
         hear_special_values(statement_->words);
-        const bool is_behind_display = s > 0 && written_.statements[s - 1].displayed;
+        const bool is_behind_display =
+            s > 0 && written_.statements[s - 1].displayed && holds_letters(statement_->words);
         if (is_behind_display || (ends_sentence(statement_->words) && !goes_on_with_case(statement_->words)))
             stated_place_.clear();
         special_.hear_end(statement_->words);

@@ -199,8 +199,8 @@ void Marker::weigh_condition(MarkedLine& line, const Math& lhs, const Math& rhs)
         notes_.back().claim = {};
         return;
     }
-    if (!statement_->displayed && rhs.kind == Kind::number && rhs.text == "0" &&
-        sets_a_condition_behind(heard_.behind)) {
+    if (!statement_->displayed && lhs.kind == Kind::letter && lhs.dots == 0 && rhs.kind == Kind::number &&
+        rhs.text == "0" && sets_a_condition_behind(heard_.behind)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("it describes a state; lines are judged for all motions");
         line.follows_from.reset();

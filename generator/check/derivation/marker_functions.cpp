@@ -196,8 +196,11 @@ void Marker::note_place(const Math& lhs, const Math& rhs) {
 void Marker::note_rates() {
     const std::vector<MathPtr>& sides = statement_->sides;
     const Mechanism& m = system_.mechanism();
+    const bool is_equal = std::all_of(statement_->relations.begin(), statement_->relations.end(),
+                                      [](Relation one) { return one == Relation::equal; });
     if (statement_->displayed || sides.size() < 2 || sides.back()->kind != Kind::number ||
-        sides.back()->text != "0")
+        sides.back()->text != "0" || !is_equal || statement_->consequence ||
+        limits_a_condition(statement_->words, heard_.behind))
         return;
     GiNaC::exmap rates;
     for (std::size_t k = 0; k + 1 < sides.size(); ++k) {

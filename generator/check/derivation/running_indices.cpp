@@ -61,6 +61,14 @@ std::pair<std::string, std::vector<std::string>> running_index(const WrittenStat
     }
     std::pair<std::string, std::vector<std::string>> result;
     for (const char* const index : {"i", "j", "k", "n"}) {
+        const auto is_on = [&](const MathPtr& side) {
+            std::map<Letter, int> there;
+            collect_letters(*side, there);
+            return there.empty() || std::any_of(there.begin(), there.end(),
+                                                [&](const auto& item) { return item.first.index == index; });
+        };
+        if (!std::all_of(statement.sides.begin(), statement.sides.end(), is_on))
+            continue;  // T = m_i v_i²/2: a sum
         std::vector<std::string> numbers = numbers_of(all, index, letters);
         if (numbers.size() < 2) continue;
         if (!result.first.empty()) return {};

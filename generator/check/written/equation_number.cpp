@@ -11,7 +11,14 @@ using Kind = WrittenToken::Kind;
 using Tokens = std::vector<WrittenToken>;
 
 bool is_roman(const std::string& letters) {
-    return !letters.empty() && letters.size() <= 4 && letters.find_first_not_of("ivx") == std::string::npos;
+    static constexpr const char* numbers[] = {"i",   "ii",   "iii", "iv", "v",  "vi",
+                                              "vii", "viii", "ix",  "x",  "xi", "xii"};
+    return std::any_of(std::begin(numbers), std::end(numbers), [&](const char* one) { return letters == one; });
+}
+
+/// a to d of (5a): other letters are factors.
+bool counts_parts(const std::string& letters) {
+    return letters.empty() || (letters.size() == 1 && letters[0] >= 'a' && letters[0] <= 'd');
 }
 
 /// Whether what stands between the brackets counts equations. A single letter may be a factor, m (a).
@@ -20,6 +27,7 @@ bool counts(const Tokens& tokens, std::size_t begin, std::size_t end, bool is_ap
     std::size_t stars = 0;
     for (std::size_t i = begin; i < end; ++i) {
         const WrittenToken& token = tokens[i];
+        if (i > begin && !token.tight) return false;  // (2 r)
         if (token.kind == Kind::number && letters.empty())
             digits += token.text;
         else if (token.kind == Kind::letter && token.letter.index.empty() && token.dots == 0)
@@ -30,7 +38,8 @@ bool counts(const Tokens& tokens, std::size_t begin, std::size_t end, bool is_ap
             return false;
     }
     if (stars > 0) return digits.empty() && letters.empty() && stars <= 3;
-    if (!digits.empty()) return digits.size() <= 5 && digits[0] >= '1' && digits[0] <= '9' && letters.size() <= 1;
+    if (!digits.empty())
+        return digits.size() <= 5 && digits[0] >= '1' && digits[0] <= '9' && counts_parts(letters);
     return (is_roman(letters) && letters.size() > 1) || (is_apart && letters.size() == 1);
 }
 

@@ -413,13 +413,23 @@ bool speaks_of_constraint(std::string_view words) {
         "すべりなし*");
 }
 
+bool limits_a_condition(std::string_view before, std::string_view behind) {
+    static constexpr std::string_view limits =
+        "not|never|only|no|cannot|in general|always|because|since|so|hence|thus|therefore|nicht|nie|nur|kein*|"
+        "jamais|seulement|ne|no|nunca|solo|sólo|non|mai|não|nie|inte|aldrig|не|никогда|только|不*|没有*|只有*|"
+        "并非*|"
+        "因为*|所以*|故*|ない*|だけ*";
+    const std::string first = in_lower_case(behind.substr(0, end_of_first_sentence(behind, 0)));
+    return has_phrase(last_sentence(before), limits) ||
+           has_phrase(first, "only|never|not|in general|nur|nie|seulement|jamais|solo|sólo|nunca|только|只*|不*");
+}
+
 bool sets_a_condition_behind(std::string_view behind) {
     std::string words = in_lower_case(behind.substr(0, end_of_first_sentence(behind, 0)));
     words.erase(0, std::min(words.find_first_not_of(" ,$"), words.size()));
     static constexpr std::string_view beginnings[] = {
-        "gives ",   "yields ", "requires ", "happens ", "when ", "if ",    "at ",
-        "liefert ", "ergibt ", "donne ",    "da ",      "dà ",   "dá ",    "daje ",
-        "ger ",     "даёт ",   "дает ",     "得",       "时",    "すると", "より"};
+        "gives ", "yields ", "requires ", "happens ", "liefert ", "ergibt ", "donne ", "da ",    "dà ",
+        "dá ",    "daje ",   "ger ",      "даёт ",    "дает ",    "得",      "时",     "すると", "より"};
     return std::any_of(std::begin(beginnings), std::end(beginnings),
                        [&](std::string_view beginning) { return words.starts_with(beginning); });
 }
@@ -427,9 +437,18 @@ bool sets_a_condition_behind(std::string_view behind) {
 bool asks(std::string_view before, std::string_view behind) {
     const std::size_t end = end_of_first_sentence(behind, 0);
     const std::size_t mark = std::min(behind.find('?'), behind.find("？"));
-    return mark < end + 1 &&
-           has_phrase(last_sentence(before),
-                      "does|do|whether|gilt|gelten|est-ce que|vale|valen|valgono|czy|gäller|верно ли|是否*");
+    if (mark >= end + 1) return false;
+    std::string sentence = last_sentence(before);
+    if (const std::size_t last = sentence.find_last_of("?!"); last != std::string::npos)
+        sentence.erase(0, last + 1);
+    sentence.erase(0, std::min(sentence.find_first_not_of(" *#>-("), sentence.size()));
+    sentence += ' ';
+    static constexpr std::string_view beginnings[] = {"does ",       "do ",   "is ",     "are ",
+                                                      "can ",        "gilt ", "gelten ", "vale ",
+                                                      "est-ce que ", "czy ",  "gäller ", "是否"};
+    return std::any_of(std::begin(beginnings), std::end(beginnings),
+                       [&](std::string_view beginning) { return sentence.starts_with(beginning); }) ||
+           has_phrase(sentence, "and does the|but does the") || ends_with_word(before, {"whether", "ob", "是否"});
 }
 
 bool denies(std::string_view words) {

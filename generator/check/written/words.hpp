@@ -157,6 +157,9 @@ bool speaks_of_constraint(std::string_view words);
 /// "It is not true that": what follows is no claim.
 bool denies(std::string_view words);
 
+/// "Not only for r' = 0", "r' = 0 only at the turns": what is said of the condition is not meant of what follows.
+bool limits_a_condition(std::string_view before, std::string_view behind);
+
 /// "N = 0 gives cos θ = …": the words behind a formula go on from it as from a condition.
 bool sets_a_condition_behind(std::string_view behind);
 

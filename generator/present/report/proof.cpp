@@ -42,7 +42,7 @@ Json as_json(const Proof& proof) {
     for (const ProvedRow& row : proof.motion.rows) {
         Json low = Json::array(), high = Json::array();
         for (const Interval& x : row.box) low.push_back(x.low), high.push_back(x.high);
-        rows.push_back({{"time", row.t.low}, {"low", std::move(low)}, {"high", std::move(high)}});
+        rows.push_back({{"time", row.t}, {"low", std::move(low)}, {"high", std::move(high)}});
     }
     Json result{{"complete", proof.motion.complete},
                 {"proved_until", proof.motion.reached},
@@ -64,8 +64,8 @@ std::string as_text(const Proof& proof) {
                              ? proof.names[i] + " [" + ShownUnit(units[i]).text({}, 1) + "]"
                              : ShownUnit(units[i]).label(proof.names[i]));
     }
-    std::string page = say("proved: at t = {:.15g} each value lies within the bound that stands beside it ({})\n",
-                           motion.rows.back().t.low, shown_count(motion.steps, to_say("step")));
+    std::string page = say("proved: at t = {} each value lies within the bound that stands beside it ({})\n",
+                           fmt::format("{}", motion.rows.back().t), shown_count(motion.steps, to_say("step")));
     const std::size_t width = column_for(labels, 12);
     for (std::size_t i = 0; i < labels.size(); ++i)
         put(page, "{:<{}}{}\n", labels[i], width, text_of(motion.rows.back().box[i], units[i]));

@@ -82,7 +82,8 @@ Bounds tanh(const Bounds& a) {
 }
 
 Bounds exp(const Bounds& a) {
-    const Interval f = rising(a.value, [](double x) { return std::exp(x); });
+    Interval f = rising(a.value, [](double x) { return std::exp(x); });
+    f.low = std::max(0.0, f.low);
     return through(a, f, f, f);
 }
 
@@ -97,7 +98,8 @@ Bounds sqrt(const Bounds& a) {
     if (a.value.high < 0) return no_bounds();
     const double low = std::sqrt(std::max(0.0, a.value.low)), high = std::sqrt(a.value.high);
     const Interval slope = widened(0.5 / high, 0.5 / low);
-    return through(a, widened(low, high), slope, -2 * power(slope, 3));
+    const Interval root = widened(low, high);
+    return through(a, {std::max(0.0, root.low), root.high}, slope, -2 * power(slope, 3));
 }
 
 Bounds abs(const Bounds& a) {

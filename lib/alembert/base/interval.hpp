@@ -27,12 +27,12 @@ struct Interval {
     double size() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
-/// The ends, moved apart by `rounded` of their size. A low end that overflows is at least the largest number.
+/// The ends, moved apart by `rounded` of their size and by the smallest normal number, which an underflow loses. A
+/// low end that overflows is at least the largest number.
 inline Interval widened(double low, double high, double rounded) {
     constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
     low = std::min(low, most), high = std::max(high, -most);
-    const double a = low - rounded * std::abs(low) - (low != 0 ? least : 0),
-                 b = high + rounded * std::abs(high) + (high != 0 ? least : 0);
+    const double a = low - rounded * std::abs(low) - least, b = high + rounded * std::abs(high) + least;
     return {std::isnan(a) ? -HUGE_VAL : a, std::isnan(b) ? HUGE_VAL : b};
 }
 /// By the error of a function of the library.
@@ -46,7 +46,12 @@ inline Interval rounded(double low, double high) {
 inline Interval hull(const Interval& a, const Interval& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
+inline bool is_zero(const Interval& a) {
+    return a.low == 0 && a.high == 0;
+}
 inline Interval operator+(const Interval& a, const Interval& b) {
+    if (is_zero(a)) return b;
+    if (is_zero(b)) return a;
     return rounded(a.low + b.low, a.high + b.high);
 }
 inline Interval operator-(const Interval& a) {
@@ -55,7 +60,10 @@ inline Interval operator-(const Interval& a) {
 inline Interval operator-(const Interval& a, const Interval& b) {
     return a + -b;
 }
+/// Zero times what has no bounds has none: it may not exist.
 inline Interval operator*(const Interval& a, const Interval& b) {
+    if (is_zero(a) || is_zero(b))
+        return std::isfinite(a.size()) && std::isfinite(b.size()) ? Interval{} : Interval::whole();
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
     const double p[4] = {product(a.low, b.low), product(a.low, b.high), product(a.high, b.low),
                          product(a.high, b.high)};
@@ -70,9 +78,11 @@ inline Interval inverse(const Interval& a) {
 /// aⁿ, n ≥ 0.
 inline Interval power(const Interval& a, int n) {
     if (n == 0) return {1, 1};
+    if (n == 1 || is_zero(a)) return a;
     const double low = std::pow(a.low, n), high = std::pow(a.high, n);
     if (n % 2 == 1) return widened(low, high);
-    return widened(a.has(0) ? 0 : std::min(low, high), std::max(low, high));
+    const Interval values = widened(a.has(0) ? 0 : std::min(low, high), std::max(low, high));
+    return {std::max(0.0, values.low), values.high};
 }
 template <typename Function>
 Interval rising(const Interval& a, Function f) {
