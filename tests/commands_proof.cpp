@@ -162,4 +162,36 @@ TEST_CASE("proof: where a function jumps or has a pole it ends") {
     }
 }
 
+/// Whether the box of this component at the end, which may be an earlier one, holds the value; what is not proved
+/// to the end claims nothing of it.
+bool holds_at_end(const std::string& scene, std::size_t component, long double value, double duration) {
+    const Proof proof = prove(parse_scene(scene, "hard.toml"), {.duration = duration});
+    if (!proof.motion.complete) return true;
+    const Interval& box = proof.motion.rows.back().box[component];
+    return static_cast<long double>(box.low) <= value && value <= static_cast<long double>(box.high);
+}
+
+TEST_CASE("proof: underflow, late starts and initial values that cancel") {
+    const std::string free = "[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = ";
+    // a b c d = 1 where a b underflows
+    CHECK(holds_at_end("[parameters]\na = 1e-200\nb = 1e-200\nc = 1e200\nd = 1e200\n[coordinates]\nx = 0\n" +
+                           free + "\"a*b*c*d\"\n",
+                       1, 2, 2));
+    // from 1000000 to 1000000.1, which is no double
+    const std::string late = "[coordinates]\nx = 0\n" + free + "\"1000000\"\n[simulation]\nstart = 1000000\n";
+    CHECK(holds_at_end(late, 0, 5000, 0.1));
+    CHECK(holds_at_end(late, 1, 100000, 0.1));
+    // k (√(10⁴⁰ + 1) − 10²⁰) = 5
+    CHECK(holds_at_end(
+        "[parameters]\nk = 1e21\nbig = 1e40\n[coordinates]\nx = { initial = \"k*(sqrt(big+1) - 1e20)\" "
+        "}\n" +
+            free + "\"-x\"\n",
+        0, 5 * std::cos(1.0L), 1));
+    // no motion at all: log(−1)
+    const Proof none =
+        prove(parse_scene("[parameters]\nF = 0\n[coordinates]\nx = -1\n" + free + "\"F*log(x)\"\n", "none.toml"),
+              {.duration = 1});
+    CHECK(!none.motion.complete);
+}
+
 }  // namespace commands_proof
