@@ -3,69 +3,56 @@
 
 #include <cln/float.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace alembert {
 
-namespace {
-
-Bounds fixed(const Interval& x) {
-    return {x, {}, {}};
-}
-
-Interval value_of(const Bounds& b) {
-    return b.nowhere ? Interval::whole() : b.value;
-}
-
-Interval function_of(Op op, const std::vector<Interval>& args) {
-    const Bounds a = args.empty() ? Bounds{} : fixed(args[0]), b = args.size() > 1 ? fixed(args[1]) : Bounds{};
+Bounds bounds_of(Op op, const Bounds& a, const Bounds& b) {
+    const auto known = [](const Bounds& f) { return f.nowhere ? whole_bounds() : f; };
     switch (op) {
         case Op::pi:
-            return widened(std::numbers::pi, std::numbers::pi);
+            return {widened(std::numbers::pi, std::numbers::pi), {}, {}};
         case Op::sin:
-            return value_of(sin(a));
+            return sin(a);
         case Op::cos:
-            return value_of(cos(a));
+            return cos(a);
         case Op::tan:
-            return value_of(tan(a));
+            return tan(a);
         case Op::asin:
-            return value_of(asin(a));
+            return a.value.low < -1 || a.value.high > 1 ? whole_bounds() : asin(a);
         case Op::acos:
-            return value_of(acos(a));
+            return a.value.low < -1 || a.value.high > 1 ? whole_bounds() : acos(a);
         case Op::atan:
-            return value_of(atan(a));
+            return atan(a);
         case Op::sinh:
-            return value_of(sinh(a));
+            return sinh(a);
         case Op::cosh:
-            return value_of(cosh(a));
+            return cosh(a);
         case Op::tanh:
-            return value_of(tanh(a));
+            return tanh(a);
         case Op::exp:
-            return value_of(exp(a));
+            return exp(a);
         case Op::log:
-            return value_of(log(a));
+            return known(log(a));
         case Op::sqrt:
-            return value_of(sqrt(a));
+            return a.value.low < 0 ? whole_bounds() : sqrt(a);
         case Op::abs:
-            return value_of(abs(a));
+            return abs(a);
         case Op::sign:
-            return value_of(sign(a));
+            return sign(a);
         case Op::pow:
-            return value_of(pow(a, b));
+            return known(pow(a, b));
         case Op::atan2:
-            return value_of(atan2(a, b));
+            return a.value.has(0) && b.value.low <= 0 ? whole_bounds() : known(atan2(a, b));
         case Op::min:
-            return {std::min(args[0].low, args[1].low), std::min(args[0].high, args[1].high)};
+            return least_of(a, b);
         case Op::max:
-            return {std::max(args[0].low, args[1].low), std::max(args[0].high, args[1].high)};
+            return -1.0 * least_of(-1.0 * a, -1.0 * b);
         default:
-            return Interval::whole();
+            return whole_bounds();
     }
 }
-
-}  // namespace
 
 Interval interval_of(const Rational& number) {
     const double near = cln::double_approx(number);
@@ -123,9 +110,10 @@ std::vector<Interval> intervals_of(const Program& program, const IntervalState& 
             case Op::unspecified:
                 break;
             default: {
-                std::vector<Interval> args;
-                for (const int arg : node.args) args.push_back(value[arg]);
-                value[id] = function_of(node.op, args);
+                const auto arg = [&](std::size_t k) {
+                    return k < node.args.size() ? Bounds{value[node.args[k]], {}, {}} : Bounds{};
+                };
+                value[id] = bounds_of(node.op, arg(0), arg(1)).value;
             }
         }
     }

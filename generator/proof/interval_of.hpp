@@ -15,6 +15,10 @@ namespace alembert {
 
 Interval interval_of(const Rational& number);
 
+/// A function of one or two arguments, with bounds of its derivative; without bounds where it has no value
+/// somewhere in its arguments, as a root of what may be negative, or jumps.
+Bounds bounds_of(Op op, const Bounds& a, const Bounds& b = {});
+
 /// Where the variables of a program lie.
 struct IntervalState {
     std::vector<Interval> parameters;

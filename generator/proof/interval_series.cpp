@@ -25,29 +25,6 @@ Bounds on(const Interval& x) {
     return {x, {1, 1}, {}};
 }
 
-Bounds known(const Bounds& b) {
-    return b.nowhere ? whole_bounds() : b;
-}
-
-Bounds function_of(Op op, const Interval& x) {
-    switch (op) {
-        case Op::tan:
-            return tan(on(x));
-        case Op::tanh:
-            return tanh(on(x));
-        case Op::asin:
-            return asin(on(x));
-        case Op::acos:
-            return acos(on(x));
-        case Op::atan:
-            return atan(on(x));
-        case Op::log:
-            return log(on(x));
-        default:
-            return whole_bounds();
-    }
-}
-
 }  // namespace
 
 IntervalSeries::IntervalSeries(Recurrences recurrences, const std::vector<Interval>& parameters)
@@ -166,51 +143,45 @@ void IntervalSeries::value_at_zero(int id) {
 void IntervalSeries::function_at_zero(int id) {
     const SeriesNode& node = r_.nodes[id];
     const Interval* const a = at(node.a, 0);
-    const auto through = [&](const Bounds& f) {
-        const Bounds value = known(f);
-        Interval* const to = at(id, 0);
+    Interval* const to = at(id, 0);
+    const auto through = [&](const Bounds& value) {
         to[0] = value.value;
         for (std::size_t j = 1; j < width_; ++j) to[j] = value.first * a[j];
     };
     switch (node.kind) {
         case Kind::root:
-            return through(sqrt(on(a[0])));
+            return through(bounds_of(Op::sqrt, on(a[0])));
         case Kind::sine:
-            return through(sin(on(a[0])));
+            return through(bounds_of(Op::sin, on(a[0])));
         case Kind::cosine:
-            return through(cos(on(a[0])));
+            return through(bounds_of(Op::cos, on(a[0])));
         case Kind::hyperbolic_sine:
-            return through(sinh(on(a[0])));
+            return through(bounds_of(Op::sinh, on(a[0])));
         case Kind::hyperbolic_cosine:
-            return through(cosh(on(a[0])));
+            return through(bounds_of(Op::cosh, on(a[0])));
         case Kind::exponential:
-            return through(exp(on(a[0])));
+            return through(bounds_of(Op::exp, on(a[0])));
         case Kind::power: {
             const Rational& exponent = node.exponent.number;
             const bool is_whole = node.exponent.constant < 0 && cln::denominator(exponent) == 1 &&
                                   cln::abs(exponent) < Rational(100);
-            if (!is_whole) return through(pow(on(a[0]), {weights_[id].exponent, {}, {}}));
+            if (!is_whole) return through(bounds_of(Op::pow, on(a[0]), {weights_[id].exponent, {}, {}}));
             const int n = cln::cl_I_to_int(cln::numerator(exponent));
             return through(n >= 0 ? power(on(a[0]), n) : inverse(power(on(a[0]), -n)));
         }
         case Kind::area:
         case Kind::ratio:
-            return through(function_of(node.op, a[0]));
+            return through(bounds_of(node.op, on(a[0])));
         case Kind::turn: {
             const Interval* const b = at(node.b, 0);
-            Interval* const to = at(id, 0);
-            if (a[0].has(0) && b[0].low <= 0) {  // the cut, where atan2 jumps
-                std::fill(to, to + width_, Interval::whole());
-                return;
-            }
-            const Bounds by_a = known(atan2(on(a[0]), {b[0], {}, {}})),
-                         by_b = known(atan2({a[0], {}, {}}, on(b[0])));
+            const Bounds by_a = bounds_of(Op::atan2, on(a[0]), {b[0], {}, {}}),
+                         by_b = bounds_of(Op::atan2, {a[0], {}, {}}, on(b[0]));
             to[0] = by_a.value;
             for (std::size_t j = 1; j < width_; ++j) to[j] = by_a.first * a[j] + by_b.first * b[j];
             return;
         }
         default:
-            at(id, 0)[0] = Interval::whole();
+            to[0] = Interval::whole();
     }
 }
 

@@ -14,28 +14,17 @@ IntervalStart interval_start(const Mechanism& m, const Equations& equations, con
     for (const Mechanism::Parameter& p : m.parameters)
         if (p.independent) start.parameters.push_back(interval_of(cln::the<cln::cl_RA>(p.number().to_cl_N())));
     Program program;
-    std::vector<int> wanted;
-    const auto value = [&](const GiNaC::ex& e) { wanted.push_back(lower_expression(program, m, e)); };
-    for (int i = 0; i < m.size(); ++i) value(m.q_start[i]);
-    for (int i = 0; i < m.size(); ++i) value(m.qdot_start[i]);
-    for (const Mechanism::Speed& speed : m.speeds) value(speed.start.value_or(0));
-    for (const Mechanism::State& z : m.states) value(z.start);
-    value(m.run.start.value_or(0));
-    value(m.run.duration.value_or(10));
+    const StartNodes nodes = lower_start(program, m);
     const std::vector<Interval> values = intervals_of(program, {.parameters = start.parameters});
-    std::size_t next = 0;
-    const auto take = [&](std::size_t count) {
+    const auto of = [&](const std::vector<int>& list) {
         std::vector<Interval> result;
-        for (std::size_t i = 0; i < count; ++i) result.push_back(values[wanted[next++]]);
+        for (const int node : list) result.push_back(values[node]);
         return result;
     };
-    const auto n = static_cast<std::size_t>(m.size());
-    const std::vector<Interval> q = take(n), u = take(n), speeds = take(m.speeds.size()),
-                                states = take(m.states.size());
-    start.t = take(1)[0];
-    const Interval lasts = take(1)[0];
+    const std::vector<Interval> q = of(nodes.q), u = of(nodes.qdot), states = of(nodes.states);
+    start.t = values[nodes.t];
     const Rational given = duration ? cln::rationalize(cln::cl_F(cln::cl_DF(*duration))) : Rational(0);
-    start.end = start.t + (duration ? interval_of(given) : lasts);
+    start.end = start.t + (duration ? interval_of(given) : values[nodes.duration]);
 
     const bool are_given = !doubles.speeds.empty();
     start.state = q;
@@ -44,14 +33,15 @@ IntervalStart interval_start(const Mechanism& m, const Equations& equations, con
             throw ModelError(say("--proof: the initial values are to be those of rates, not of speeds"));
         start.state.insert(start.state.end(), u.begin(), u.end());
     } else if (are_given) {
+        const std::vector<Interval> speeds = of(nodes.speeds);
         start.state.insert(start.state.end(), speeds.begin(), speeds.end());
     } else {
         Program forms;
-        std::vector<int> nodes;
-        for (const GiNaC::ex& form : equations.form) nodes.push_back(lower_expression(forms, m, form));
+        std::vector<int> wanted;
+        for (const GiNaC::ex& form : equations.form) wanted.push_back(lower_expression(forms, m, form));
         const std::vector<Interval> all =
             intervals_of(forms, {.parameters = start.parameters, .t = start.t, .q = q, .qdot = u});
-        for (const int node : nodes) start.state.push_back(all[node]);
+        for (const int node : wanted) start.state.push_back(all[node]);
     }
     start.state.insert(start.state.end(), states.begin(), states.end());
     return start;

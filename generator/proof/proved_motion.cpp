@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "proof/interval_matrix.hpp"
 #include "proof/interval_of.hpp"
@@ -24,6 +23,11 @@ double width_of(const Interval& x) {
 
 bool is_within(const Interval& inner, const Interval& outer) {
     return outer.low < inner.low && inner.high < outer.high;
+}
+
+/// The decimals that round to it, or nearly so.
+Interval around(double x) {
+    return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)};
 }
 
 /// Σ c_k s^k for k from `last` down to 0.
@@ -75,7 +79,10 @@ private:
     ProvedMotion given_up(std::string why) {
         result_.reached = t_;
         result_.why = std::move(why);
-        if (result_.rows.back().t < t_) result_.rows.push_back({t_, box()});
+        const Box last = box();
+        const bool is_bounded =
+            std::all_of(last.begin(), last.end(), [](const Interval& x) { return std::isfinite(x.size()); });
+        if (result_.rows.back().t < t_ && is_bounded) result_.rows.push_back({t_, last});
         return std::move(result_);
     }
 
@@ -115,6 +122,9 @@ private:
         return h;
     }
 
+    /// Where a step of this length ends: none is left over that is shorter than rounding errors of the times.
+    double step_end(double h) const { return 1.001 * h < end_ - t_ ? t_ + h : end_; }
+
     bool step() {
         const int p = options_.order;
         const Interval t = t_ == begin_ ? exact_begin_ : Interval{t_, t_};
@@ -123,7 +133,7 @@ private:
         Box point;
         for (const double y : middle_) point.push_back({y, y});
         series_.from(t, point, {.order = p, .with_slopes = false});
-        double h = std::min(length(series_), end_ - t_);
+        const double h = length(series_);
         std::vector<Interval> at_point;
         for (std::size_t i = 0; i < n_; ++i)
             for (int k = 0; k < p; ++k) at_point.push_back(series_.coefficient(i, k));
@@ -136,15 +146,13 @@ private:
             }
         Box remainder;
         constexpr int most_halvings = 60;
-        double until = t_ + h;
-        for (int halvings = 0;; ++halvings) {
+        double until = step_end(h);
+        for (int halvings = 1; !proves(t, over_box, until, remainder); ++halvings) {
+            until = step_end(std::ldexp(h, -halvings));
             if (halvings > most_halvings || !(until > t_)) return false;
-            if (proves(t, over_box, until, remainder)) break;
-            h /= 2;
-            until = t_ + h;
         }
         until = std::min(until, t_ + of_remainder(remainder));
-        if (until >= end_) until = end_;
+        if (!(until > t_)) return false;
         const auto point_at = [&](std::size_t i, const Interval& s) {
             return horner([&](int k) { return k < p ? at_point[i * p + k] : remainder[i]; }, p, s);
         };
@@ -168,9 +176,11 @@ private:
     /// Whether the motions that start in the box stay for the step in one over which `remainder` holds the last
     /// coefficient.
     bool proves(const Interval& t, const std::vector<Interval>& over_box, double until, Box& remainder) {
-        constexpr double margin = 1e-9;  // the decimal of a row may lie behind the number
         const int p = options_.order;
-        const Interval s{0, (Interval{until, until} - t).high * (1 + margin)};
+        // The decimals of rows may lie behind their numbers, and that of the end before the start of a short
+        // motion.
+        const Interval last = until < end_ ? around(until) : hull(around(until), exact_end_);
+        const Interval s = hull({0, 0}, last - t);
         const auto with = [&](std::size_t i, const Interval& last) {
             return horner([&](int k) { return k < p ? over_box[i * p + k] : last; }, p, s);
         };
@@ -215,7 +225,7 @@ private:
         while (options_.sample > 0) {
             const double at = begin_ + static_cast<double>(next_row_) * options_.sample;
             if (!(at <= until) || at >= end_) break;
-            add(at, {std::nextafter(at, -HUGE_VAL), std::nextafter(at, HUGE_VAL)});
+            add(at, around(at));
             ++next_row_;
         }
         if (until >= end_) add(end_, hull(exact_end_, {end_, end_}));
@@ -235,10 +245,10 @@ private:
                 middle(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
                     middle_of(product[i * n_ + j]);
             }
-        std::vector<double> scale(n_);  // of each component, so that large ones do not wrap the others
+        std::vector<double> scale(n_, 1);  // of each component, so that large ones do not wrap the others
         for (std::size_t i = 0; i < n_; ++i) {
             size_[i] = std::max({size_[i], std::abs(middle_[i]), change[i].size()});
-            scale[i] = size_[i] > 0 && std::isfinite(size_[i]) ? size_[i] : 1;
+            if (std::isfinite(size_[i])) scale[i] = std::max(1.0, size_[i]);
             middle.row(static_cast<Eigen::Index>(i)) /= scale[i];
         }
         std::vector<Eigen::Index> order(n_);  // the longest edges of the box first
@@ -287,12 +297,7 @@ private:
 
 }  // namespace
 
-std::optional<std::string> obstacle_to_proof(const Program& program) {
-    return obstacle_to_recurrences(program);
-}
-
 ProvedMotion proved_motion(const Program& program, const IntervalStart& start, const ProofOptions& options) {
-    if (const auto obstacle = obstacle_to_proof(program)) throw ModelError(*obstacle);
     return Proving(program, start, options).run();
 }
 

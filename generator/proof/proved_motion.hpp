@@ -50,10 +50,7 @@ struct ProvedMotion {
     std::string why = {};  ///< it goes no further, in words; empty if it is complete
 };
 
-/// The reason why nothing can be proved of these equations, in words; nothing if there is none.
-std::optional<std::string> obstacle_to_proof(const Program& program);
-
-/// Throws ModelError for the obstacle, if there is one.
+/// Throws what `recurrences` throws.
 ProvedMotion proved_motion(const Program& program, const IntervalStart& start, const ProofOptions& options);
 
 }  // namespace alembert

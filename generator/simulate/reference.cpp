@@ -105,21 +105,16 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
         if (p.independent) start.parameters.push_back(quad_of(cln::the<cln::cl_RA>(p.number().to_cl_N())));
 
     Program program;
-    std::vector<int> wanted;
-    const auto value = [&](const GiNaC::ex& e) { wanted.push_back(lower_expression(program, m, e)); };
-    for (int i = 0; i < m.size(); ++i) value(m.q_start[i]);
-    for (int i = 0; i < m.size(); ++i) value(m.qdot_start[i]);
-    for (const Mechanism::Speed& speed : m.speeds) value(speed.start.value_or(0));
-    for (const Mechanism::State& z : m.states) value(z.start);
-    value(m.run.start.value_or(0));
-    value(m.run.duration.value_or(10));
-    std::vector<Quad> out(wanted.size());
-    Tape<Quad>(program, wanted, start.parameters)(0, nullptr, nullptr, out.data());
-    const auto n = static_cast<std::ptrdiff_t>(m.size()), s = static_cast<std::ptrdiff_t>(m.speeds.size());
-    std::vector<Quad> q(out.begin(), out.begin() + n), u(out.begin() + n, out.begin() + 2 * n),
-        speeds(out.begin() + 2 * n, out.begin() + 2 * n + s), states(out.begin() + 2 * n + s, out.end() - 2);
-    start.t = out[out.size() - 2];
-    start.duration = duration ? quad_of_decimal(*duration) : out.back();
+    const StartNodes nodes = lower_start(program, m);
+    const auto values = [&](const std::vector<int>& of) {
+        std::vector<Quad> result(of.size());
+        Tape<Quad>(program, of, start.parameters)(0, nullptr, nullptr, result.data());
+        return result;
+    };
+    std::vector<Quad> q = values(nodes.q), u = values(nodes.qdot), speeds = values(nodes.speeds),
+                      states = values(nodes.states), times = values({nodes.t, nodes.duration});
+    start.t = times[0];
+    start.duration = duration ? quad_of_decimal(*duration) : times[1];
 
     const bool speeds_given = !doubles.speeds.empty();
     const Program constraints = lower_constraints(m);

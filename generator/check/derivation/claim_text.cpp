@@ -394,4 +394,9 @@ void collect_letters(const Math& math, std::map<Letter, int>& to) {
     for (const MathPtr& arg : math.args) collect_letters(*arg, to);
 }
 
+std::string compact(std::string text) {
+    std::erase(text, ' ');
+    return text;
+}
+
 }  // namespace alembert

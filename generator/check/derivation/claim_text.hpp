@@ -80,4 +80,7 @@ Lone lone_letter(const Math& side);
 /// Every letter of the tree, with the most dots that it has anywhere.
 void collect_letters(const Math& math, std::map<Letter, int>& to);
 
+/// The text of a claim without blanks.
+std::string compact(std::string text);
+
 }  // namespace alembert

@@ -67,8 +67,9 @@ Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) 
         letters.emplace(letter.written.text, letter.name.text);
     const Letters plain(system.scene());
     std::vector<std::string> remarks;
-    result.written = with_own_functions(
-        with_running_indices(with_products(std::move(result.written), plain), plain), plain, remarks);
+    result.written = with_products(std::move(result.written), plain);
+    result.written = with_running_indices(std::move(result.written), plain, remarks);
+    result.written = with_own_functions(std::move(result.written), plain, remarks);
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     const Readings readings(system, result.written);
     Marker marker(system, result.written, readings.settle(chosen.letters, chosen.given));

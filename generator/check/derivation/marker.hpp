@@ -308,7 +308,7 @@ private:
     std::map<std::string, GiNaC::ex> known_to_check() const;
     std::optional<LineClaim> from_start_of_chain(const MarkedLine& line) const;
     void find_slip_of_approximation(MarkedLine& line, const LineNotes& notes);
-    bool is_of_wrong_definition(std::size_t k, const std::map<std::string, GiNaC::ex>& known);
+    void blame_definition(std::size_t k, const std::map<std::string, GiNaC::ex>& known);
     void find_slip(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     void seek_in_integral(MarkedLine& line, LineNotes& notes, const std::map<std::string, GiNaC::ex>& known);
     bool is_plausible(const std::optional<Slip>& slip, const LineClaim& claim);

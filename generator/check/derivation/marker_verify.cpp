@@ -49,7 +49,7 @@ void Marker::verify() {
     for (const std::size_t k : asked)
         if (lines[k].status == LineStatus::mistake && !notes_[k].is_sure &&
             !is_plausible(lines[k].checked.likely, notes_[k].claim))
-            is_of_wrong_definition(k, known);
+            blame_definition(k, known);
     for (std::size_t k = 0; k < lines.size(); ++k)
         if (lines[k].status == LineStatus::mistake && notes_[k].expanded)
             find_slip_of_approximation(lines[k], notes_[k]);
@@ -304,15 +304,10 @@ void Marker::name_held(MarkedLine& line) const {
 
 void Marker::locate_term(MarkedLine& line, const LineNotes& notes) const {
     if (line.term.empty() || line.checked.likely->kind == "missing_term") return;
-    const auto without_blanks = [](const std::string& text) {
-        std::string result = text;
-        std::erase(result, ' ');
-        return result;
-    };
-    const std::string term = without_blanks(line.term);
+    const std::string term = compact(line.term);
     for (const ClaimText* side : {&notes.left, &notes.right})
         for (const ClaimText::Part& part : side->parts) {
-            if (without_blanks(side->text.substr(part.begin, part.end - part.begin)) != term) continue;
+            if (compact(side->text.substr(part.begin, part.end - part.begin)) != term) continue;
             line.term_offset = part.offset;
             line.term_length = part.length;
             return;

@@ -25,11 +25,6 @@ std::vector<std::size_t> places_of(const std::string& name, const std::string& t
     return result;
 }
 
-std::string compact(std::string text) {
-    std::erase(text, ' ');
-    return text;
-}
-
 /// What stands in `repaired` in place of the part of `whole` from `begin` to `end`, whatever the blanks; empty
 /// where more has changed.
 std::string repaired_part(const std::string& whole, std::size_t begin, std::size_t end,
@@ -51,10 +46,12 @@ std::string repaired_part(const std::string& whole, std::size_t begin, std::size
 
 /// U = m g y + k δ²/2 after a wrong δ = δ_0 + l sin θ: no change of the line explains it, and one of what was said
 /// of δ does. Then this is the mistake, and the line follows from it.
-bool Marker::is_of_wrong_definition(std::size_t k, const std::map<std::string, GiNaC::ex>& known) {
+void Marker::blame_definition(std::size_t k, const std::map<std::string, GiNaC::ex>& known) {
     const LineClaim& claim = notes_[k].claim;
     const std::string written = claim.lhs + " = " + claim.rhs;
-    for (std::size_t d = k; d-- > 0;) {
+    constexpr int most_tried = 6;  // a search for a slip each
+    int tried = 0;
+    for (std::size_t d = k; d-- > 0 && tried < most_tried;) {
         const std::string& stated = lines[d].claim;
         const std::size_t equals = stated.find(" = ");
         if (lines[d].status != LineStatus::definition || equals == std::string::npos) continue;
@@ -65,6 +62,7 @@ bool Marker::is_of_wrong_definition(std::size_t k, const std::map<std::string, G
             lines.begin() + static_cast<std::ptrdiff_t>(d) + 1, lines.begin() + static_cast<std::ptrdiff_t>(k),
             [&](const MarkedLine& line) { return is_right(line.status) && !places_of(name, line.claim).empty(); });
         if (places.size() != 1 || is_borne_out) continue;
+        ++tried;
         const std::string value = "(" + stated.substr(equals + 3) + ")";
         std::string whole = written;
         whole.replace(places[0], name.size(), value);
@@ -92,9 +90,8 @@ bool Marker::is_of_wrong_definition(std::size_t k, const std::map<std::string, G
         lines[k].checked = {};
         lines[k].term.clear();
         lines[k].right.clear();
-        return true;
+        return;
     }
-    return false;
 }
 
 }  // namespace alembert

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/derivation/running_indices.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <set>
 
+#include "base/language/say.hpp"
 #include "check/derivation/parts.hpp"
 
 namespace alembert {
@@ -83,7 +87,8 @@ std::pair<std::string, std::vector<std::string>> running_index(const WrittenStat
 
 }  // namespace
 
-Written with_running_indices(Written written, const Letters& letters) {
+Written with_running_indices(Written written, const Letters& letters, std::vector<std::string>& remarks) {
+    std::set<std::string> told;
     std::vector<WrittenStatement> statements;
     for (WrittenStatement& statement : written.statements) {
         const auto [index, numbers] = running_index(statement, letters);
@@ -91,6 +96,9 @@ Written with_running_indices(Written written, const Letters& letters) {
             statements.push_back(std::move(statement));
             continue;
         }
+        if (told.insert(index).second)
+            remarks.push_back(
+                say("the index {} stands for {}", index, fmt::format("{}", fmt::join(numbers, ", "))));
         for (const std::string& number : numbers) {
             WrittenStatement copy = statement;
             copy.is_copy = number != numbers.front();

@@ -34,6 +34,18 @@ Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names
         if (*e) want(**e);
 }
 
+StartNodes lower_start(Program& program, const Mechanism& m) {
+    const auto node = [&](const GiNaC::ex& e) { return lower_expression(program, m, e); };
+    StartNodes result;
+    for (int i = 0; i < m.size(); ++i) result.q.push_back(node(m.q_start[i]));
+    for (int i = 0; i < m.size(); ++i) result.qdot.push_back(node(m.qdot_start[i]));
+    for (const Mechanism::Speed& speed : m.speeds) result.speeds.push_back(node(speed.start.value_or(0)));
+    for (const Mechanism::State& state : m.states) result.states.push_back(node(state.start));
+    result.t = node(m.run.start.value_or(0));
+    result.duration = node(m.run.duration.value_or(10));
+    return result;
+}
+
 Starts::Spot Starts::spot_of(const std::string& name) const {
     if (name == "t") return {name, Part::t, 0};
     std::vector<std::string> known{"t"};

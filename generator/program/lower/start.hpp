@@ -70,6 +70,13 @@ private:
     std::vector<int> nodes_;  ///< q, q', speeds, states, then the scene's settings of the run
 };
 
+/// The nodes of what the scene says of the start, in parameters: for arithmetic of any kind.
+struct StartNodes {
+    std::vector<int> q, qdot, speeds, states;
+    int t = 0, duration = 0;  ///< where the scene gives none, those of 0 and of 10 s
+};
+StartNodes lower_start(Program& program, const Mechanism& mechanism);
+
 /// Initial values that depend on parameters are computed from the replaced ones. A name is a parameter's, a
 /// coordinate's, a rate's (`theta1'`), a generalized speed's, a state's or `t`, or that of an input that has this
 /// number already (`prepared`). Throws ModelError for any other, with the nearest known name, for a parameter that
