@@ -525,4 +525,74 @@ duration = 5.5
                 {}) == 1000);
 }
 
+TEST_CASE("instants: an event that touches zero at the knots of a table happens at each of them") {
+    // a saw tooth: rounding keeps some tips a little away from zero, and others a little before their knots
+    const auto tips = [](const char* when, const char* points, const char* more) {
+        const auto run = simulated(temporary("tips.toml", fmt::format(R"toml([coordinates]
+x = {{ initial = -1.2, rate = 1 }}
+[states]
+n = {{}}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[tables]
+F = {{ arguments = ["t"], period = 0.2, points = {} }}
+[forces]
+x = "F(t)"
+[[event]]
+name = "clock"
+when = "{}"
+{}
+[simulation]
+duration = 4.95
+tolerance = 1e-11
+)toml",
+                                                                      points, when, more)),
+                                   {});
+        const auto& events = run["events"];
+        return std::count_if(events.begin(), events.end(), [](const auto& e) { return e["name"] == "clock"; });
+    };
+    const char* const tooth = "[[0, 0], [0.1, 1]]";
+    CHECK(tips("F(t)*(1 - F(t))", tooth, "set = { n = \"n + 1\" }") == 49);
+    CHECK(tips("F(t)*(1 - F(t))", tooth, "") == 49);
+    CHECK(tips("F(t)", tooth, "") == 24);
+    CHECK(tips("1 - F(t)", tooth, "set = { n = \"n + 1\" }") == 25);
+    CHECK(tips("F(t) - 1", tooth, "direction = \"up\"") == 25);
+    CHECK(tips("F(t) - 1", tooth, "direction = \"down\"") == 0);
+    CHECK(tips("1.0000001 - F(t)", tooth, "") == 0);
+    CHECK(tips("0.9999999 - F(t)", tooth, "") == 50);
+}
+
+TEST_CASE("instants: an event at the very end of a run happens, on whatever side of its zero rounding leaves it") {
+    const auto count = [](const char* when, int duration, const char* method) {
+        const auto run = simulated(temporary("end.toml", fmt::format(R"toml([coordinates]
+x = {{ initial = -1, rate = 1 }}
+[states]
+n = {{}}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[[event]]
+name = "clock"
+when = "{}"
+set = {{ n = "n + 1" }}
+[simulation]
+duration = {}
+)toml",
+                                                                     when, duration)),
+                                   {"--method", method});
+        return number(run["final"], "states", "n");
+    };
+    for (const char* const method : {"auto", "dop853", "radau", "taylor"})
+        for (const int duration : {1, 2, 3, 4, 7, 10}) {
+            CAPTURE(method);
+            CAPTURE(duration);
+            CHECK(count("sin(pi*t)", duration, method) == duration);
+            CHECK(count(fmt::format("x + 1 - {}", duration).c_str(), duration, method) == 1);
+            CHECK(count(fmt::format("x + 0.999999 - {}", duration).c_str(), duration, method) == 0);
+        }
+}
+
 }  // namespace commands_instants

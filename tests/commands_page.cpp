@@ -199,6 +199,26 @@ TEST_CASE("page: nothing of a hostile scene becomes markup or script") {
     }
 }
 
+TEST_CASE("page: an input from outside has a slider and stands among the given functions") {
+    const std::string scene = temporary("outside.toml", R"toml([parameters]
+m = 2
+[inputs]
+u = { value = 0.4, given = "outside", unit = "N", about = "the drive" }
+w = { value = 1, given = "outside" }
+[coordinates]
+x = 1
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[forces]
+x = "u - w*x"
+)toml");
+    const std::string page = page_of(scene, 0);
+    CHECK(page.find("the drive") != std::string::npos);
+    CHECK(page.find("id=\"live-par-2\"") != std::string::npos);
+}
+
 TEST_CASE("page: a scene that cannot be read has a page with the mistake, and the exit code 3") {
     const std::string scene =
         temporary("wrong.toml", "title = \"<script>alert(1)</script>\"\n[coordinates]\nq = \"z<b>\"\n");

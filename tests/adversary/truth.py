@@ -98,6 +98,8 @@ class Truth:
         self.rng = numpy.random.default_rng(seed)
         self.start = scene.start()
         self.found_rest = None
+        corners = [g for holds, _, _ in self.motion.positions for g in sides(holds)]
+        self.corners = Compiled(corners) if corners else None
         self.states = self._walk() if self.motion.positions else self._free(count)
         self.count = len(self.states["t", 0])
         self.motion.accelerate_many(self.states, self.count)
@@ -315,6 +317,8 @@ class Truth:
         """What holds at one state in 60 digits."""
         state = {key: v[at] for key, v in states.items()}
         try:
+            if self.corners and any(g == 0 for g in self.corners.mp(self.motion.polish(state))):
+                return None  # in a corner of a constraint, which allows no velocity there but 0
             return confirmed(lambda: self.at(made, self.motion.polish(state)))
         except Undefined:
             return None
@@ -467,19 +471,25 @@ class Truth:
 
 
 def has_nothing_of(scene, claim):
-    """Whether a claim holds whatever the state is, with q, q' and q'' all free: an identity, which may be called vacuous."""
+    """Whether a claim holds whatever the state is, with q, q' and q'' all free where its own conditions hold: an identity,
+    which may be called vacuous."""
     left, right = scene.named(claim.left), scene.named(claim.right)
     if claim.constants:
         return not any(n in scene.coordinates or n == "t" for t in (left, right) for n, _ in used(t))
     summands = terms(left) + terms(right)
     made = Compiled([left, right, *summands])
+    conditions = [scene.named(w) for w in claim.where]
+    allowed = Compiled(conditions) if conditions else None
+    names = set().union(used(left), used(right), *(used(c) for c in conditions))
     rng = numpy.random.default_rng(5)
     seen = 0
     for _ in range(400):  # arguments of asin and acos are rarely drawn
         if seen == 40:
             break
-        state = {key: mpf(float(drawn(rng, 1)[0])) for key in used(left) | used(right)}
+        state = {key: mpf(float(drawn(rng, 1)[0])) for key in sorted(names)}
         try:
+            if allowed and any(value <= 0 for value in allowed.mp(state)):
+                continue
             if confirmed(lambda s=state: Truth.at(made, s)).kind == FAILS:
                 return False
             seen += 1

@@ -178,7 +178,7 @@ void add_mechanism(PageParts& page, const Overview& all) {
         add_table(page.body, say("Generalized speeds"), {say("symbol"), say("form"), say("unit"), say("meaning")},
                   rows);
     rows.clear();
-    for (std::size_t k = 0; k < m.parameters.size(); ++k) {
+    for (std::size_t k = 0; k < all.scene.parameters.size(); ++k) {
         const Parameter& given = all.scene.parameters[k];
         rows.push_back({symbol(m, m.parameters[k].symbol),
                         html(given.shown.unit.empty() ? given.value.text : given.shown.value),

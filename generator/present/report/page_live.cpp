@@ -207,15 +207,14 @@ private:
     std::vector<Knob> parameters() const {
         std::vector<Knob> knobs;
         std::size_t index = 0;
-        for (std::size_t k = 0; k < m_.parameters.size() && k < all_.scene.parameters.size(); ++k) {
-            if (!m_.parameters[k].independent) continue;
-            const Parameter& given = all_.scene.parameters[k];
+        for (const Mechanism::Parameter& given : m_.parameters) {
+            if (!given.independent) continue;
             const ShownUnit unit(given.shown);
             const double v = p_.parameters[index].value, factor = factor_of(unit);
             Knob knob{.kind = "par",
                       .index = index,
-                      .label = symbol_of(m_.parameters[k].symbol),
-                      .name = given.name.text,
+                      .label = symbol_of(given.symbol),
+                      .name = p_.parameters[index].name,
                       .unit = unit.text(given.unit),
                       .value = v,
                       .low = v == 0 ? -factor : std::min(0.1 * v, 3 * v),

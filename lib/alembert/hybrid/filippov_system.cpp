@@ -12,11 +12,11 @@
 
 #include "alembert/hybrid/automaton.hpp"
 #include "alembert/hybrid/continuous_sides.hpp"
+#include "alembert/hybrid/events_at_switch.hpp"
 #include "alembert/hybrid/mode_guard.hpp"
 #include "alembert/hybrid/side_choice.hpp"
 #include "alembert/hybrid/sliding_field.hpp"
 #include "alembert/hybrid/switching_scales.hpp"
-#include "alembert/hybrid/zero_of_jump.hpp"
 #include "alembert/ode/disturbance.hpp"
 
 namespace alembert {
@@ -106,15 +106,15 @@ public:
         }
         result_.ending = Ending::completed;
         result_.last_zeros.clear();
-        const std::vector<double> forces = events_here();
+        const EventsAtSwitch events = events_here();
         if (options_.disturbed.seed == 0)
-            return pass(watched_, hit.guards) && begin_piece() && !stops_by_jump(forces, hit);
+            return pass(watched_, hit.guards) && begin_piece() && !stops_by_event(events, hit);
         const std::vector<double> before = rate_here();
         if (!pass(watched_, hit.guards)) return false;
         const std::vector<double> after = rate_here();
         now_.late = late_by_rounding(options_.disturbed.seed,
                                      {.t = now_.t, .number = jumps_++, .before = before, .after = after});
-        return begin_piece() && !stops_by_jump(forces, hit);
+        return begin_piece() && !stops_by_event(events, hit);
     }
 
     std::string changes() const { return {}; }
@@ -199,42 +199,45 @@ private:
         return {now.rate().begin(), now.rate().end()};
     }
 
-    /// The values of the events of the run with the sides of now; none if no event looks at forces.
-    std::vector<double> events_here() const {
-        if (system_.events_of_forces.empty()) return {};
-        SlidingField now(system_, sides_, dimension());
-        now.evaluate(now_.t, now_.state.data());
-        if (system_.before_step) system_.before_step(now.sigma());
-        std::vector<double> value(events_.list.size());
-        events_(now_.t, now_.state.data(), now.rate().data(), value.data());
-        return value;
+    /// What the events of the run are with the sides of now.
+    EventsAtSwitch events_here() const {
+        return {{.system = system_,
+                 .sides = sides_,
+                 .events = events_,
+                 .t = now_.t,
+                 .state = now_.state,
+                 .duration = options_.duration}};
     }
 
-    /// Records the events whose forces have jumped past zero, or to it, from their values `before`; whether one of
-    /// them stops the run.
-    bool stops_by_jump(const std::vector<double>& before, const Hit& hit) {
-        const std::vector<double> after = events_here();
-        for (const int k : system_.events_of_forces) {
-            const auto i = static_cast<std::size_t>(k);
-            const Event& event = events_.list[i];
-            const auto passed = zero_of_jump(k, event, before[i], after[i]);
-            if (!passed || !passed->counts ||
-                std::any_of(hit.passed.begin(), hit.passed.end(), [&](const LastZero& z) { return z.event == k; }))
-                continue;
-            result_.events.push_back({.index = k, .name = event.name, .time = now_.t, .state = now_.state});
-            result_.last_zeros.push_back(*passed);
-            if (event.stop) result_.ending = Ending::stopped_by_event;
+    /// Records the events that pass zero where the sides change, or touch it. Whether one of them stops the run.
+    bool stops_by_event(const EventsAtSwitch& before, const Hit& hit) {
+        const EventsAtSwitch after = events_here();
+        for (const LastZero& zero : jumps(system_, before, after))
+            if (std::none_of(hit.passed.begin(), hit.passed.end(),
+                             [&](const LastZero& z) { return z.event == zero.event; }))
+                record(zero);
+        for (const LastZero& zero : touched_ = touches(before, after)) {
+            for (LastZero& known : result_.last_zeros) known.touches = known.touches || known.event == zero.event;
+            if (zero.counts && !has_just_happened(zero.event)) record(zero);
         }
         return result_.ending == Ending::stopped_by_event;
     }
 
-    /// Signs that change at the instant at which an event of the run ends it: forces jump there too.
+    void record(const LastZero& zero) {
+        const Event& event = events_.list[static_cast<std::size_t>(zero.event)];
+        result_.events.push_back({.index = zero.event, .name = event.name, .time = now_.t, .state = now_.state});
+        result_.last_zeros.push_back(zero);
+        if (event.stop) result_.ending = Ending::stopped_by_event;
+    }
+
+    /// Signs that change at the instant at which an event of the run ends it: forces jump there too, and the
+    /// motion bends.
     void jump_at_end(const Hit& hit) {
-        if (system_.events_of_forces.empty() || hit.guards.empty()) return;
-        const std::vector<double> forces = events_here();
+        if (hit.guards.empty()) return;
+        const EventsAtSwitch events = events_here();
         const FilippovMode before = sides_;
         if (pass(watched_, hit.guards)) {
-            stops_by_jump(forces, hit);
+            stops_by_event(events, hit);
         } else {  // what the event does may decide where the motion goes on
             sides_ = before;
             result_.failure.reset();
@@ -264,18 +267,25 @@ private:
         return rhs;
     }
 
-    /// Whether an event has its zero where the piece begins, and not only soon after.
+    /// Whether an event has its zero where the piece begins, and not only soon after. One that touches zero there
+    /// may be beyond it by rounding, and comes back.
+    bool is_at_its_zero(int event) const {
+        return has_just_happened(event) ||
+               std::any_of(touched_.begin(), touched_.end(), [&](const LastZero& z) { return z.event == event; });
+    }
+
     bool has_just_happened(int event) const {
         constexpr double same_instant = 1e-12;
         return std::any_of(result_.events.rbegin(), result_.events.rend(), [&](const EventRecord& one) {
-            return one.index == event && now_.t - one.time <= same_instant * std::max(1.0, std::abs(now_.t));
+            return one.index == event &&
+                   now_.t - one.time <= 2 * one.width + same_instant * std::max(1.0, std::abs(now_.t));
         });
     }
 
     Events with_watches(const std::vector<ModeGuard>& watched) const {
         std::vector<Event> list = events_.list;
         for (std::size_t k = 0; k < list.size() && !result_.times.empty(); ++k)
-            list[k].at_once = list[k].at_once || !has_just_happened(static_cast<int>(k));
+            list[k].at_once = list[k].at_once || !is_at_its_zero(static_cast<int>(k));
         for (const ModeGuard& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
         auto sides = std::make_shared<SlidingField>(system_, sides_, dimension());
@@ -548,6 +558,7 @@ private:
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL,
            since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before
+    std::vector<LastZero> touched_;   ///< where the piece begins
     Trajectory result_;
 };
 

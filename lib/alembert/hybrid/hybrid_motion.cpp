@@ -242,21 +242,24 @@ private:
         return result;
     }
 
+    /// Whether coordinates and rates are the same, whatever else was set.
+    bool same_motion(const std::vector<double>& before, const std::vector<double>& after) const {
+        const auto n = static_cast<std::ptrdiff_t>(acceleration_.size());
+        return std::equal(before.begin(), before.begin() + 2 * n, after.begin());
+    }
+
     /// The zeros at which the values of events are, and which what was set turns into the direction that counts
     /// for these: the motion grows through a zero to which it has fallen. Two events that turn each other back for
     /// ever are a failure.
     std::vector<LastZero> turned(const Halt& halt, const std::vector<double>& before,
                                  const std::vector<double>& after) {
         std::vector<LastZero> result;
-        const auto n = static_cast<std::ptrdiff_t>(acceleration_.size());
-        if (!contacts_.kicks.passed || before == after ||
-            !std::equal(before.begin(), before.begin() + 2 * n, after.begin()))
-            return result;
+        if (!contacts_.kicks.passed || before == after || !same_motion(before, after)) return result;
         const std::vector<PassedZero> zeros = passed_zeros(before, after);
         for (const LastZero& zero : halt.passed) {
             const auto k = static_cast<std::size_t>(zero.event);
             const int wanted = mode_->events.list[k].direction, side = zeros[k].side;
-            if (wanted == 0 || side == 0 || contacts_.kicks.is_of_multipliers(k)) continue;
+            if (wanted == 0 || side == 0 || zero.touches || contacts_.kicks.is_of_multipliers(k)) continue;
             if (side == wanted && !zero.counts) result.push_back({zero.event, side, true});
             if (side == -wanted && zero.counts) turned_back_.insert(zero.event);
             if (side != wanted || !zero.counts || !turned_back_.contains(zero.event)) continue;
@@ -279,6 +282,10 @@ private:
         for (std::size_t k = 0; k < zeros.size(); ++k) {
             if (!zeros[k].is_zero || zeros[k].side == 0 || contacts_.kicks.is_of_multipliers(k)) continue;
             const PassedZero soon = zero_along({modes_(closed_), now_.state}, k, now_.t, options_.duration);
+            if (soon.slope == 0 && stays_at_zero(k)) {
+                zeros[k].side = 0;
+                zeros[k].band = tolerance::passed_zero * zeros[k].size;
+            }
             if (soon.side * zeros[k].side >= 0 ||
                 !(std::abs(soon.slope) * soon.hold > above_rounding * zeros[k].size))
                 continue;
@@ -286,6 +293,12 @@ private:
             zeros[k].hold = soon.hold;
         }
         return zeros;
+    }
+
+    /// Whether the value of an event is zero, and stays so: a little later, and a thousandth of the run later.
+    bool stays_at_zero(std::size_t event) const {
+        constexpr double later = 1e6;
+        return zero_along({modes_(closed_), now_.state}, event, now_.t, later * options_.duration).slope == 0;
     }
 
     void tell_gains(const std::vector<int>& kicks, const std::vector<double>& before, const VectorXd& struck) {
@@ -311,9 +324,13 @@ private:
         for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
         for (const LastZero& zero : halt.passed) {
             const auto k = static_cast<std::size_t>(zero.event);
-            const PassedZero passed = contacts_.kicks.is_of_multipliers(k)
-                                          ? zero_along({modes_(closed_), now_.state}, k, now_.t, options_.duration)
-                                          : zeros[k];
+            PassedZero passed = contacts_.kicks.is_of_multipliers(k)
+                                    ? zero_along({modes_(closed_), now_.state}, k, now_.t, options_.duration)
+                                    : zeros[k];
+            if (zero.width > 0 && same_motion(before, after)) {  // rounding decides nothing on a touch
+                passed.side = -zero.direction;
+                passed.hold = 2 * zero.width;
+            }
             passed_[k] = passed;
             if (!contains(halt.kicks, zero.event)) continue;
             ++kicks_;

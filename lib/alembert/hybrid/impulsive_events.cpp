@@ -15,6 +15,9 @@ constexpr double short_flight = 1e-3;  // a time between two kicks is short if i
 constexpr double lost_in_time = 1e-11;
 constexpr double finest_way = 1e-12,
                  coarsest_way = 1e-6;  // bounds on the way of an event's value between kicks, relative to its size
+// times between kicks that shrink by one ratio, down to a part of the longest, have a limit
+constexpr double same_ratio = 0.01, endless_flight = 1e-8;
+constexpr int enough_alike = 8;
 constexpr std::size_t most_shown = 10;
 
 }  // namespace
@@ -56,10 +59,14 @@ std::optional<std::string> KickSeries::add(const std::string& name, double t, co
         flight < short_flight * longest_ &&
         (std::abs(passed.slope) * flight < way * passed.size || flight < lost_in_time * std::abs(t));
     lost_ = is_lost ? lost_ + 1 : 0;
+    const double ratio = flight / last_flight_;
+    alike_ = ratio < 1 && std::abs(ratio - last_ratio_) < same_ratio ? alike_ + 1 : 0;
+    last_flight_ = flight, last_ratio_ = ratio;
+    const bool has_limit = alike_ >= enough_alike && flight < endless_flight * longest_;
     const bool is_wrong = is_lost && passed.slope * zero.direction < 0;  // rounding decides the sign
     const bool is_crowd =
         times_.size() > most_kicks && t - times_[times_.size() - 1 - most_kicks] <= moment * duration;
-    if (!is_wrong && !is_crowd && lost_ < 2) return std::nullopt;
+    if (!is_wrong && !is_crowd && !has_limit && lost_ < 2) return std::nullopt;
     const std::size_t shown = std::min(times_.size(), most_shown);
     return fmt::format(
         "the impulses of event '{}' follow each other without end before t = {:.10g}: the last {} came within "

@@ -11,10 +11,11 @@
 /// Rounding must not repeat a zero that has just been passed: the event's value is held on the side to which it
 /// moves until it has risen above rounding (`held_from`). Infinitely many kicks in a finite time are
 /// recognized when the distance that the value travels from zero to zero falls below the tolerance, or the time
-/// between kicks below rounding, after both were larger (`KickSeries`).
+/// between kicks below rounding, after both were larger, and where the times shrink by one ratio (`KickSeries`).
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -104,8 +105,10 @@ public:
 
 private:
     std::vector<double> times_;
-    double longest_ = 0;  ///< the longest time between two kicks
-    int lost_ = 0;        ///< how many of the last kicks are too near to each other
+    double longest_ = 0;                              ///< the longest time between two kicks
+    int lost_ = 0;                                    ///< how many of the last kicks are too near to each other
+    double last_flight_ = HUGE_VAL, last_ratio_ = 0;  ///< the last time between two, as a part of the one before
+    int alike_ = 0;                                   ///< how many ratios in succession were the same
 };
 
 }  // namespace alembert

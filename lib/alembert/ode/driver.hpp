@@ -381,7 +381,8 @@ private:
                 .end_rate = step_.end_rate(),
                 .start_state = step_.state(),
                 .start_rate = step_.rate(),
-                .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }};
+                .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); },
+                .ends_run = step_.end_time() == end_};
     }
 
     std::vector<Crossing> look_for_events() { return watch_.look(stretch()); }

@@ -10,6 +10,7 @@ namespace alembert {
 
 /// Whether look_at_piece finds all zeros of an event in the piece.
 bool EventWatch::shows_all(const StepView& step, const Piece& piece, const FivePoints& points, int index) {
+    if (is_flat(step, piece, index)) return true;
     if (!events_.bounds.has(index)) return describes(step, piece, points, index);
     if (is_bounded(step, piece, points, index)) return true;
     if (!describes(step, piece, points, index)) return false;
@@ -171,23 +172,59 @@ bool EventWatch::describes(const StepView& step, const Piece& piece, const FiveP
            interpolation_error.slope <= allowed_slope + 8 * noise / width;
 }
 
+/// Whether all samples are zero but for rounding, which no division of the piece makes clearer.
+bool EventWatch::is_flat(const StepView& step, const Piece& piece, int index) {
+    const auto k = static_cast<std::size_t>(index);
+    double largest = 0;
+    int turns = 0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        const double here = samples_[piece[i]].value[k];
+        if (std::isnan(here)) return false;
+        largest = std::max(largest, std::abs(here));
+        turns += i > 0 && side_of(here) != side_of(samples_[piece[i - 1]].value[k]);
+    }
+    const Sample& middle = samples_[piece[2]];
+    if (events_.bounds.has(index)) return largest <= zero_size(step, middle, index);
+    return turns > 1 && largest <= noise(step, index, middle.theta, middle.value[k]);
+}
+
+/// The most that rounding of the state and of each operation can make of an event at a sample.
+double EventWatch::zero_size(const StepView& step, const Sample& sample, int index) {
+    constexpr double beyond_doubt = 16;
+    if (events_.bounds.has(index)) {
+        const auto about = [](double x) { return Bounds{widened(x, x, 2 * tolerance::epsilon), {}, {}}; };
+        const auto of_state = [&](int i) { return about(sample.state[static_cast<std::size_t>(i)]); };
+        const auto of_rate = [&](int i) { return about(sample.rate[static_cast<std::size_t>(i)]); };
+        const Interval value = events_.bounds
+                                   .of(index, {.time = about(step.start + sample.theta * (step.end - step.start)),
+                                               .state = std::cref(of_state),
+                                               .rate = std::cref(of_rate)})
+                                   .value;
+        if (std::isfinite(value.high - value.low)) return value.high - value.low;
+    }
+    return beyond_doubt * rounding_at(step, sample)[static_cast<std::size_t>(index)];
+}
+
 /// The change of an event's value in the middle of the step by a rounding error in each component of the state.
 double EventWatch::rounding(const StepView& step, int index) {
-    if (rounding_.empty()) {
-        const Sample& middle = samples_[3];
-        const double t = step.start + middle.theta * (step.end - step.start);
-        for (std::size_t n = 0; n < ahead_.size(); ++n)
-            ahead_[n] = middle.state[n] * (1 + (n % 2 == 0 ? 2 : -2) * tolerance::epsilon);
-        rhs_(t, ahead_.data(), ahead_rate_.data());
-        ++evaluations_;
-        events_(t * (1 + 2 * tolerance::epsilon), ahead_.data(), ahead_rate_.data(), out_.data());
-        rounding_ = out_;
-        for (std::size_t k = 0; k < rounding_.size(); ++k) {
-            rounding_[k] = std::abs(rounding_[k] - middle.value[k]);
-            if (std::isnan(rounding_[k])) rounding_[k] = 0;
-        }
-    }
+    if (rounding_.empty()) rounding_ = rounding_at(step, samples_[3]);
     return rounding_[static_cast<std::size_t>(index)];
+}
+
+/// The same at a sample, of all events.
+std::vector<double> EventWatch::rounding_at(const StepView& step, const Sample& sample) {
+    const double t = step.start + sample.theta * (step.end - step.start);
+    for (std::size_t n = 0; n < ahead_.size(); ++n)
+        ahead_[n] = sample.state[n] * (1 + (n % 2 == 0 ? 2 : -2) * tolerance::epsilon);
+    rhs_(t, ahead_.data(), ahead_rate_.data());
+    ++evaluations_;
+    events_(t * (1 + 2 * tolerance::epsilon), ahead_.data(), ahead_rate_.data(), out_.data());
+    std::vector<double> result = out_;
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        result[k] = std::abs(result[k] - sample.value[k]);
+        if (std::isnan(result[k])) result[k] = 0;
+    }
+    return result;
 }
 
 }  // namespace alembert

@@ -60,6 +60,7 @@ std::vector<Crossing> EventWatch::look(const StepView& step) {
     evaluations_before_ = evaluations_;
     const std::vector<int> sign_before = sign_;
     std::vector<Crossing> found = scan(step);
+    if (step.ends_run) look_at_end(step, found);
     const bool is_stopped = std::any_of(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
     for (int round = 0; is_stopped && round < most_looks; ++round) {
         sign_ = sign_before;  // the signs at the end of the step do not matter any more, because the run ends here
@@ -91,15 +92,40 @@ bool EventWatch::look_again(const StepView& step, std::vector<Crossing>& found) 
     part.end_rate = end_rate.data();
     std::vector<Crossing> earlier = scan(part);
     for (Crossing& crossing : earlier) crossing.theta *= first.theta;
-    std::erase_if(earlier, [&](const Crossing& c) {
-        return std::any_of(found.begin(), found.end(), [&](const Crossing& known) {
-            return known.index == c.index && std::abs(known.time - c.time) <= simultaneous(step.start, step.end);
-        });
+    const auto is_same = [&](const Crossing& a, const Crossing& b) {
+        return a.index == b.index && std::abs(a.time - b.time) <=
+                                         std::max(simultaneous(step.start, step.end), 2 * a.width + 2 * b.width);
+    };
+    std::erase_if(earlier, [&](Crossing& c) {
+        const auto known =
+            std::find_if(found.begin(), found.end(), [&](const Crossing& one) { return is_same(one, c); });
+        if (known == found.end()) return false;
+        c.width = known->width;
+        if (known->theta > first.theta) *known = c;  // a touch has begun already
+        return true;
     });
+    order(found, step);
     if (earlier.empty()) return false;
     found.insert(found.begin(), earlier.begin(), earlier.end());
     order(found, step);
     return std::any_of(earlier.begin(), earlier.end(), [&](const Crossing& c) { return stops(c); });
+}
+
+/// Zeros that rounding puts a little beyond the end of the run are at its end.
+void EventWatch::look_at_end(const StepView& step, std::vector<Crossing>& found) {
+    constexpr double same_instant = 1e-13;
+    const double later = ahead(step), uncertain = same_instant * std::max(1.0, std::abs(step.end));
+    for (std::size_t n = 0; n < ahead_.size(); ++n) ahead_[n] = step.end_state[n] + later * step.end_rate[n];
+    events_(step.end + later, ahead_.data(), step.end_rate, out_.data());
+    for (std::size_t k = 0; k < out_.size(); ++k) {
+        const double here = samples_[1].value[k], slope = (out_[k] - here) / later;
+        const int index = static_cast<int>(k);
+        if (here * slope < 0 && std::abs(here) <= uncertain * std::abs(slope) &&
+            std::none_of(found.begin(), found.end(), [&](const Crossing& c) {
+                return c.index == index && step.end - c.time <= simultaneous(step.start, step.end);
+            }))
+            record(step, {.index = index, .theta = 1, .direction = side_of(slope)}, found);
+    }
 }
 
 /// Leaves the end of the step in the second sample.

@@ -25,10 +25,11 @@
 /// points of the same sign: at the turning point of a parabola through three neighbouring points if that comes
 /// near zero, and wherever slopes show that the event may reach zero and come back. If the event is convex towards
 /// zero (a smooth minimum, or a kink like that of |x - a| - b), this search is complete. Pieces become shorter
-/// than a millionth of the step at kinks, jumps and poles, and no shorter. A touch that rounding keeps away from
-/// zero is not found, and neither, where no bounds are known, is a dip so narrow that the event is flat at all
-/// points. Shorter steps (Options::longest_step, max_step of a scene) find these too. Before an event that stops
-/// the run, the step is searched again up to that event.
+/// than a millionth of the step at kinks, jumps and poles, and no shorter. Where the value turns back and comes to
+/// zero but for rounding, it touches zero: that is one zero, whatever signs rounding gives its values there. Where
+/// no bounds are known, a dip so narrow that the event is flat at all points is not found; shorter steps
+/// (Options::longest_step, max_step of a scene) find it too. Before an event that stops the run, the step is
+/// searched again up to that event.
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
@@ -72,33 +73,47 @@ private:
 
     std::vector<Crossing> scan(const StepView& step);
     bool look_again(const StepView& step, std::vector<Crossing>& found);
+    void look_at_end(const StepView& step, std::vector<Crossing>& found);
     void divide(const StepView& step, const Piece& piece, int depth, const std::vector<int>& events,
                 std::vector<Crossing>& found);
     bool stays_away(const StepView& step, const Piece& piece, const FivePoints& points, int index) const;
     bool shows_all(const StepView& step, const Piece& piece, const FivePoints& points, int index);
     bool is_bounded(const StepView& step, const Piece& piece, const FivePoints& points, int index) const;
     bool describes(const StepView& step, const Piece& piece, const FivePoints& points, int index);
+    bool is_flat(const StepView& step, const Piece& piece, int index);
+    double zero_size(const StepView& step, const Sample& sample, int index);
     double rounding(const StepView& step, int index);
+    std::vector<double> rounding_at(const StepView& step, const Sample& sample);
     std::size_t new_sample();
     std::size_t sample_at(const StepView& step, double theta);
     void find_slopes(const StepView& step, const Piece& piece, const FivePoints& points);
     double ahead(const StepView& step) const;
+    bool is_near_kink(const StepView& step) const;
 
     double value(const StepView& step, int index, double theta);
     void look_at_piece(const StepView& step, const Piece& piece, int index, std::vector<Crossing>& found);
-    void record(const StepView& step, int index, double theta, int direction, std::vector<Crossing>& found);
+    void record(const StepView& step, Crossing zero, std::vector<Crossing>& found);
     bool stops(const Crossing& crossing) const {
         return crossing.counts && events_.list[static_cast<std::size_t>(crossing.index)].stop;
     }
-    std::vector<double> turning_points(const StepView& step, int index);
-    double at_the_end(const StepView& step, int index, std::size_t from, std::size_t to);
-    double turns_between(const StepView& step, int index, std::size_t left);
-    double between(const StepView& step, int index, const double* theta, const double* g);
+    /// A place where an event has turned back, and its value there; not a number if there is none. `width`: the
+    /// value is zero to rounding as far as that on both sides.
+    struct Turn {
+        double theta = NAN, value = NAN, width = 0;
+    };
+    std::vector<Turn> turning_points(const StepView& step, int index);
+    Turn at_the_end(const StepView& step, int index, std::size_t from, std::size_t to);
+    Turn turns_between(const StepView& step, int index, std::size_t left);
+    Turn between(const StepView& step, int index, const double* theta, const double* g);
     /// Two places in a step and the values of an event there.
     struct Bracket {
         double left, g_left, right, g_right;
     };
-    double lowest(const StepView& step, int index, Bracket of, double middle);
+    Turn lowest(const StepView& step, int index, const Bracket& of, double middle);
+    Turn touch(const StepView& step, int index, const Bracket& of, double at);
+    void set_zeros(const StepView& step, int index, bool is_flat);
+    double noise(const StepView& step, int index, double theta, double here);
+    double band(const StepView& step, int index);
     double locate(const StepView& step, int index, const Bracket& of);
 
     const Events& events_;
@@ -119,7 +134,10 @@ private:
     std::vector<int> sign_;  ///< the last sign that was not 0; it is 0 if there was none, or if an event has just
                              ///< been exactly 0
     FiveNumbers theta_five_{}, g_five_{}, slope_five_{};
-    std::vector<double> theta_, g_;  ///< points and values of the piece and the event looked at
+    std::vector<double> theta_, g_, width_;  ///< points and values of the piece and the event looked at
+    std::size_t middle_ = 0;                 ///< the sample in the middle of that piece
+    double largest_ = 0;                     ///< the largest of the values
+    double band_ = 0;                        ///< values up to this are zero there; not a number if not needed yet
 };
 
 }  // namespace alembert

@@ -8,7 +8,8 @@
 ///     const Events from_scene = make_events(module, {}, {true, false});     // stop flags in the scene's order
 ///
 /// An event occurs where g changes its sign, other than through a pole, or becomes exactly zero. A zero at the
-/// very start (closer to it than 1e-12 of the step, or of the time) does not count. event_watch.hpp says how the
+/// very start (closer to it than 1e-12 of the step, or of the time) does not count. One at the very end of the run
+/// does, also where rounding leaves it a little beyond. event_watch.hpp says how the
 /// zeros within a step are found. Events of one step come in the order of time; simultaneous ones (to 1e-12) in
 /// the order of declaration. All events that are simultaneous with one that stops the run are reported.
 /// `direction` restricts the zeros to those where the value grows, or falls; a touch from below counts as growing.
@@ -68,6 +69,7 @@ struct StepView {
     const double* start_state = nullptr;  ///< these two are known for a step of adaptive methods
     const double* start_rate = nullptr;
     std::function<void(double theta, double* state)> interpolate = {};
+    bool ends_run = false;
 };
 
 /// A zero of event `index`.
@@ -77,6 +79,7 @@ struct Crossing {
     double theta = 0;    ///< (time − start) / (end − start) of the stretch
     int direction = 0;   ///< +1: the value grows through zero; −1: it falls
     bool counts = true;  ///< whether the zero has the direction of its event
+    double width = 0;    ///< of a touch: the value is zero to rounding as long as that before and after it
 };
 
 /// In a step from `start` to `end`, events are simultaneous if their zeros are nearer to each other than this.

@@ -50,8 +50,11 @@ public:
             for (std::size_t j = 0; j < found.size(); ++j) {
                 if (std::abs(found[j].time - found[k].time) > at_once) continue;
                 if (j > k && found[j].counts) note(found[j], state);
-                motion_.last_zeros.push_back(
-                    {.event = found[j].index, .direction = found[j].direction, .counts = found[j].counts});
+                motion_.last_zeros.push_back({.event = found[j].index,
+                                              .direction = found[j].direction,
+                                              .counts = found[j].counts,
+                                              .touches = found[j].width > 0,
+                                              .width = found[j].width});
             }
             return found[k].time;
         }
@@ -73,8 +76,11 @@ private:
         return events_.list[static_cast<std::size_t>(crossing.index)];
     }
     void note(const Crossing& crossing, const std::vector<double>& state) {
-        motion_.events.push_back(
-            {.index = crossing.index, .name = event_of(crossing).name, .time = crossing.time, .state = state});
+        motion_.events.push_back({.index = crossing.index,
+                                  .name = event_of(crossing).name,
+                                  .time = crossing.time,
+                                  .state = state,
+                                  .width = crossing.width});
     }
 
     Trajectory& motion_;

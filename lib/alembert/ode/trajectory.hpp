@@ -53,13 +53,16 @@ struct EventRecord {
     /// The contacts closed before it, where these are not those of its phase, because another event of the instant
     /// has changed them.
     std::optional<std::vector<int>> closed = {};
+    double width = 0;  ///< of a touch: its value is zero to rounding as long as that before and after it, in s
 };
 
 /// An event that is zero at the instant where an event has stopped the run.
 struct LastZero {
     int event = 0;
-    int direction = 0;    ///< +1: the value grows; −1: it falls
-    bool counts = false;  ///< whether that is the event's direction
+    int direction = 0;     ///< +1: the value grows; −1: it falls
+    bool counts = false;   ///< whether that is the event's direction
+    bool touches = false;  ///< whether the value goes back to where it came from
+    double width = 0;      ///< the value is zero to rounding as long as that before and after it, in s
 };
 
 /// The change from one method to another, or back.
