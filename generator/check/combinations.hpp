@@ -3,15 +3,14 @@
 
 /// Claims that are combinations of the equations and the constraints. They need no state that obeys the
 /// constraints, which may be hard to find.
-///
-///     const std::vector<std::size_t> left = without_combinations(now, {0, 1, 2}, Motions::At::motion);
+
+#include <map>
 
 #include "check/comparison.hpp"
 
 namespace alembert {
 
-/// Settles those of these claims that are combinations, and returns the others.
-std::vector<std::size_t> without_combinations(Comparison& now, const std::vector<std::size_t>& claims,
-                                              Motions::At at);
+/// Those of these claims that are combinations, proved; where no state of rest exists, vacuous.
+std::map<std::size_t, CheckedClaim> combinations_among(Comparison& now, const std::vector<std::size_t>& claims);
 
 }  // namespace alembert

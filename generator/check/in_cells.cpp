@@ -3,21 +3,23 @@
 // and its states are shared out evenly among them: 60 states more than its dimension span it but for a chance of
 // 2⁻⁶⁰. Where |·| stands within |·| they are several such spaces together; of k sides each cell that has states
 // has a share of about 2⁻ᵏ of them at least, and so many states are looked at that none of this share is missed.
-#include "check/in_cells.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "algebra/symbolic/impossible.hpp"
 #include "algebra/symbolic/on_sides.hpp"
+#include "analysis/exact/cells.hpp"
 #include "analysis/exact/expression_of.hpp"
 #include "base/language/say.hpp"
 #include "check/in_print.hpp"
+#include "check/multiple.hpp"
 #include "check/vanishing.hpp"
+#include "check/ways.hpp"
 #include "model/parameter_values.hpp"
 
 namespace alembert {
@@ -56,19 +58,60 @@ int dimension(const std::map<Cell, double>& cells) {
     return static_cast<int>(basis.size());
 }
 
-}  // namespace
+class InCells {
+public:
+    InCells(Question& q, ExactStates& states);
 
-InCells::InCells(Comparison& now, std::size_t claim, ExactStates& states)
-    : now_(now), claim_(claim), states_(states) {
-    std::vector<ex> list{now.forms[claim].residual};
+    /// Whether there are sides, and states can be found in each cell: where positions obey constraints, or states
+    /// are those of rest, nothing steers a state into a cell.
+    bool any() const;
+    std::optional<CheckedClaim> settle();
+    bool fails();
+
+private:
+    /// What exact arithmetic says of a cell.
+    struct Exact {
+        bool is_zero = true;
+        double failure = 0;  ///< log₂ of the probability that it is zero by chance
+    };
+    /// What is known of a cell in the end; `empty`: it has no states.
+    enum class Known { holds, fails, empty, unknown };
+
+    /// Visits all cells that have states modulo the prime; false if some may have been missed.
+    bool visit();
+    Known look(Cell cell, const Exact& exact);
+    bool is_empty(Cell cell) const;
+    bool look_beside();
+    std::optional<Counterexample> on_own_branch(const Counterexample& shown);
+    std::string words(Cell cell) const;
+    std::string side_in_words(std::size_t side, bool is_positive) const;
+    std::vector<std::string> where_it_holds() const;
+    std::optional<CheckedClaim> refuse(const std::string& reason) const;
+
+    Question& q_;
+    Comparison& now_;
+    ExactStates& states_;
+    Program program_;
+    int root_ = 0;
+    bool has_roots_ = false;  ///< square roots, whose signs may be others in exact arithmetic
+    std::optional<Cells> cells_;
+    std::vector<std::optional<GiNaC::ex>> sides_;
+    std::map<Cell, Exact> visited_;
+    std::map<Cell, SeenInCell> seen_;
+    std::map<Cell, Known> known_;
+    std::optional<Counterexample> shown_;
+};
+
+InCells::InCells(Question& q, ExactStates& states) : q_(q), now_(q.now), states_(states) {
+    std::vector<ex> list{q.form().residual};
     if (states.motions.has_sides())
-        for (ex& part : parts_of(now.law, now.m)) list.push_back(std::move(part));
-    const std::vector<int> roots = now.claims.lower(program_, list);
+        for (ex& part : parts_of(now_.law, now_.m)) list.push_back(std::move(part));
+    const std::vector<int> roots = now_.claims.lower(program_, list);
     root_ = roots[0];
     cells_.emplace(program_, roots);
     const std::vector<int> needed = program_.needed(roots);
     has_roots_ = std::any_of(needed.begin(), needed.end(), [&](int id) { return program_[id].op == Op::sqrt; });
-    for (const int side : cells_->sides()) sides_.push_back(expression_of(program_, side, now.m, now.e.lambda));
+    for (const int side : cells_->sides()) sides_.push_back(expression_of(program_, side, now_.m, now_.e.lambda));
 }
 
 bool InCells::any() const {
@@ -226,10 +269,9 @@ std::optional<Counterexample> InCells::on_own_branch(const Counterexample& shown
     return counterexample(own, states_.motions, program_, root_);
 }
 
-bool InCells::refuse(const std::string& reason) {
-    now_.verdicts[claim_].verdict = Verdict::undecided;
-    now_.verdicts[claim_].reason = reason;
-    return states_.motions.rows_with_friction().empty();
+/// With friction another way may decide it.
+std::optional<CheckedClaim> InCells::refuse(const std::string& reason) const {
+    return states_.motions.rows_with_friction().empty() ? std::optional(undecided(reason)) : std::nullopt;
 }
 
 bool InCells::fails() {
@@ -241,13 +283,10 @@ bool InCells::fails() {
     return false;
 }
 
-bool InCells::settle() {
-    CheckedClaim& c = now_.verdicts[claim_];
+std::optional<CheckedClaim> InCells::settle() {
     if (cells_->sides().size() > most_sides) {
-        if (const auto shown = counterexample(told(now_), states_.motions, program_, root_)) {
-            refute(c, *shown);
-            return true;
-        }
+        if (const auto shown = counterexample(told(now_), states_.motions, program_, root_))
+            return refuted(*shown);
         return refuse(
             say("signs, absolute values, smaller and larger values cut the states into too many cells: {} "
                 "expressions decide, and at most {} are tried",
@@ -269,10 +308,10 @@ bool InCells::settle() {
             return refuse(
                 say("it fails on a branch of the constraints, and it could not be decided whether it holds on "
                     "that of the initial state"));
-        refute(c, *shown_);
+        CheckedClaim c = refuted(*shown_);
         c.holds_where = where_it_holds();
-        explain(now_, claim_, states_);
-        return true;
+        q_.explained_at = &states_;
+        return c;
     }
     const auto unknown =
         std::find_if(known_.begin(), known_.end(), [](const auto& one) { return one.second == Known::unknown; });
@@ -286,10 +325,36 @@ bool InCells::settle() {
                                 words(unknown->first)));
     if (!has_visited_all || is_beyond || has_others)
         return refuse(say("it holds at all states that were tried, and these do not reach every choice of signs"));
-    c.verdict = Verdict::proved;
-    c.failure = -INFINITY;
-    for (const auto& [cell, exact] : visited_) c.failure = std::max(c.failure, exact.failure);
-    return true;
+    double failure = -INFINITY;
+    for (const auto& [cell, exact] : visited_) failure = std::max(failure, exact.failure);
+    return proved(failure);
+}
+
+/// Whether the claim is the scene's own equation as it stands, whatever sides its functions have.
+bool is_own_equation(const Question& q) {
+    Program p;
+    std::vector<ex> inertia;
+    for (int i = 0; i < q.now.law.size(); ++i)
+        for (int j = 0; j <= i; ++j) inertia.push_back(q.now.law.M(i, j));
+    return !depends_on_sides(p, q.now.claims.lower(p, inertia)) &&
+           is_multiple(q.form().residual, q.now.m, q.now.law);
+}
+
+}  // namespace
+
+std::optional<CheckedClaim> in_cells(Question& q) {
+    ExactStates* const own = q.now.on_own_branch;
+    InCells sided(q, own != nullptr && own->get(0) != nullptr ? *own : *q.together.states);
+    if (!sided.any()) return std::nullopt;
+    if (!is_own_equation(q)) return sided.settle();
+    CheckedClaim c = proved(0);
+    c.normal_form = true;
+    return c;
+}
+
+bool fails_in_a_cell(Question& q, ExactStates& states) {
+    InCells sided(q, states);
+    return sided.any() && sided.fails();
 }
 
 }  // namespace alembert

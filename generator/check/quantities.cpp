@@ -10,6 +10,7 @@
 #include "base/language/say.hpp"
 #include "check/any_motion.hpp"
 #include "check/claim_tree.hpp"
+#include "check/decide.hpp"
 #include "check/open_rows.hpp"
 #include "check/total_derivative.hpp"
 #include "check/vanishing.hpp"
@@ -178,12 +179,12 @@ std::string words_of_identity() {
     return say("a relation between the quantities themselves: it holds whatever the motion");
 }
 
-LetterClaim::LetterClaim(Comparison& now, std::size_t k, ExactStates& states)
-    : now_(now),
-      k_(k),
-      states_(states),
-      spoken_(letters_in(now.scene.claims[k], now.claims)),
-      c_(now.verdicts[k]) {}
+LetterClaim::LetterClaim(Question& q)
+    : now_(q.now),
+      k_(q.claim),
+      states_(*q.together.states),
+      spoken_(letters_in(now_.scene.claims[k_], now_.claims)),
+      c_(q.found) {}
 
 LetterClaim::~LetterClaim() = default;
 

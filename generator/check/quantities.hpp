@@ -46,12 +46,11 @@ private:
     std::optional<ExactStates> states_;
 };
 
-/// A claim that may speak of letters. `settle`, then, if that is false, the comparison of the sides as they stand,
-/// then `tell`.
+/// A claim that may speak of letters, as one of the ways to decide it (decide.hpp). `settle`, then, if that is
+/// false, the comparison of the sides as they stand, then `tell`.
 class LetterClaim {
 public:
-    /// `states`: those at which it is compared.
-    LetterClaim(Comparison& now, std::size_t claim, ExactStates& states);
+    explicit LetterClaim(Question& q);
     ~LetterClaim();
     LetterClaim(const LetterClaim&) = delete;
     LetterClaim& operator=(const LetterClaim&) = delete;
