@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "check/combinations.hpp"
 #include "model/energy.hpp"
 
 namespace alembert {

@@ -19,6 +19,10 @@ struct JudgedGroup {
     std::optional<OpenJudgement> judged;
 };
 
+/// Those of these claims that are combinations of the equations and the constraints, proved; vacuous where there
+/// is no state of rest. They need no state that obeys the constraints, which may be hard to find.
+std::map<std::size_t, CheckedClaim> combinations_among(Comparison& now, const std::vector<std::size_t>& claims);
+
 struct AskedTogether {
     AskedTogether(Comparison& now, std::vector<std::size_t> claims);
     ~AskedTogether() { now.on_own_branch = nullptr; }
@@ -27,11 +31,11 @@ struct AskedTogether {
 
     Comparison& now;
     const std::vector<std::size_t> claims;
-    std::map<std::size_t, CheckedClaim> combinations = {};  ///< decided without states (combinations.hpp)
+    std::map<std::size_t, CheckedClaim> combinations = {};  ///< decided without states
     /// Those of all other claims; null if they need none. Perhaps none was found.
     ExactStates* states = nullptr;
     std::map<std::vector<std::size_t>, JudgedGroup> groups = {};
-    std::vector<CheckedClaim> solutions = {};  ///< once one of the claims at "solution" was asked (solution.hpp)
+    std::vector<CheckedClaim> solutions = {};  ///< once one of the claims at "solution" was asked
 
 private:
     ExactStates& states_for(const Basis::Wanted& wanted, std::unique_ptr<ExactStates>& made);

@@ -63,4 +63,9 @@ private:
     std::optional<std::optional<OwnBranch>> own_branch_;
 };
 
+/// Equations that every motion obeys that the constraints allow: q'' = w + Aᵀλ, A q'' = γ with any w. What follows
+/// from them alone is kinematics. For w stand the symbols q'' themselves, since exact states choose values for
+/// them before they solve.
+Equations any_motion(Equations equations, const Mechanism& mechanism);
+
 }  // namespace alembert

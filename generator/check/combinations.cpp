@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "check/combinations.hpp"
-
 #include <algorithm>
 
 #include "base/language/say.hpp"

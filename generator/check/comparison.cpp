@@ -3,13 +3,6 @@
 
 #include <algorithm>
 
-#include "check/arithmetic_error.hpp"
-#include "check/diagnosis.hpp"
-#include "check/jump.hpp"
-#include "check/open_rows.hpp"
-#include "check/quantities.hpp"
-#include "check/vanishing.hpp"
-#include "check/ways.hpp"
 #include "model/formalism/rest.hpp"
 
 namespace alembert {
@@ -73,74 +66,6 @@ int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims) {
         result = std::max(result, halvings(p, now.claims.lower(p, {now.forms[k].residual})));
     }
     return result;
-}
-
-namespace {
-
-Diagnosis diagnosis_of(Question& q) try {
-    Comparison& now = q.now;
-    const std::size_t claim = q.claim;
-    const bool up_to_constant =
-        now.at == Claim::At::motion && letters_in(now.scene.claims[claim], now.claims).constant;
-    std::optional<AnyStates> any;
-    if (up_to_constant) any.emplace(now.m, now.e, halvings_in(now, {claim}));
-    ExactStates& states = any && any->get() != nullptr ? *any->get() : *q.explained_at;
-    return diagnose({.scene = now.scene,
-                     .claims = now.claims,
-                     .law = now.law,
-                     .forms = now.forms,
-                     .wrong = now.wrong,
-                     .claim = claim,
-                     .in_motion = now.at == Claim::At::motion,
-                     .at_impact = now.at == Claim::At::impact,
-                     .known = *now.known,
-                     .up_to_constant = any && any->get() != nullptr},
-                    states);
-} catch (const std::exception&) {
-    words_of_arithmetic_error();  // the claim is refuted, with a state to see it, even if nothing explains it
-    return {};
-}
-
-/// Whether the corrected claim stands a look in numbers, where exact arithmetic may err: signs, jumps of what is
-/// called constant, multiples of the prime.
-bool stands(Question& q, const ClaimForm& repaired) {
-    Comparison& now = q.now;
-    ExactStates& states = *q.explained_at;
-    const Motions& motions = states.motions;
-    if (!repaired.open.empty()) {
-        std::vector<ClaimForm> forms = now.forms;
-        forms[q.claim] = repaired;
-        const OpenRows rows = open_rows(now.claims, forms, {q.claim});
-        const FoundJump jump =
-            find_jump(told(now), motions, rows.program, rows.list[0].rest, is_kept(now, states));
-        if (jump.shown || jump.is_unknown) return false;
-        if (!depends_on_sides(rows.program, rows.roots()) && !motions.has_sides()) return true;
-        constexpr unsigned tries = 40;
-        const std::set<std::size_t> wrong = {q.claim};
-        return !counterexample(told(now), motions, rows,
-                               {.claim = q.claim, .open = repaired.open, .wrong = wrong, .tries = tries});
-    }
-    Question of_repaired(q.together, q.claim, repaired);
-    const auto seen = [&] { return in_numbers(told(now), motions, of_repaired.program(), of_repaired.root()); };
-    const std::vector<int> root{of_repaired.root()};
-    if (now.at == Claim::At::rest) return seen() != InNumbers::fails;
-    if (has_long_numbers(of_repaired.program(), root)) return seen() == InNumbers::holds;
-    if (fails_in_a_cell(of_repaired, states)) return false;
-    const bool may_err = depends_on_sides(of_repaired.program(), root) || now.on_own_branch != nullptr;
-    return !may_err || seen() != InNumbers::fails;
-}
-
-}  // namespace
-
-void explain(Question& q) {
-    const Diagnosis found = diagnosis_of(q);
-    if (!found.reason.empty()) q.found.reason = found.reason;
-    // An acceleration means nothing at an impact; x'' stands for x'(-) there.
-    const bool is_beyond_impact = q.now.at == Claim::At::impact && found.nearest.find("''") != std::string::npos;
-    if (is_beyond_impact || (found.repaired && !stands(q, *found.repaired))) return;
-    q.found.nearest = found.nearest;
-    q.found.difference = found.difference;
-    q.found.likely = found.likely;
 }
 
 }  // namespace alembert

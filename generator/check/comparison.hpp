@@ -63,8 +63,4 @@ Told told(Comparison& now);
 /// How often angles must be halved for the residuals of these claims to be rational.
 int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims);
 
-class Question;
-/// Adds to a verdict what is wrong with the claim.
-void explain(Question& q);
-
 }  // namespace alembert

@@ -12,8 +12,6 @@
 
 namespace alembert {
 
-Question::~Question() = default;
-
 Question::Question(AskedTogether& of, std::size_t k, const ClaimForm& form)
     : now(of.now), together(of), claim(k), form_(form) {
     now.compare_on_sheet_of({k});
@@ -107,13 +105,6 @@ std::optional<CheckedClaim> without_exact_states(Question& q) {
 std::optional<CheckedClaim> beyond_what_can_be(Question& q) {
     if (q.now.assumed.empty() || is_possible(told(q.now), q.together.states->motions)) return std::nullopt;
     return undecided(say("no state was found at which all that it assumes is so"));
-}
-
-std::optional<CheckedClaim> by_its_letters(Question& q) {
-    q.letters = std::make_unique<LetterClaim>(q);
-    const bool is_right = q.letters->settle();
-    q.lower();  // in the reading that was chosen
-    return is_right ? std::optional(q.found) : std::nullopt;
 }
 
 std::optional<CheckedClaim> as_an_identity(Question& q) {
@@ -214,7 +205,7 @@ CheckedClaim answer(AskedTogether& together, std::size_t claim) try {
             break;
         }
     if (q.explained_at != nullptr) explain(q);
-    if (q.letters) q.letters->tell();
+    if (q.tell_last) q.tell_last();
     for (const Way doubt : doubts)
         if (q.found.verdict == Verdict::proved)
             if (auto found = doubt(q)) q.found = std::move(*found);

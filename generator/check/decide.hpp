@@ -10,18 +10,17 @@
 /// question is a function from the question to a verdict. They stand in one table, and the first that answers has
 /// decided. What they prove is held against the doubts of a second table.
 
+#include <functional>
+
 #include "check/asked_together.hpp"
 
 namespace alembert {
-
-class LetterClaim;
 
 class Question {
 public:
     Question(AskedTogether& together, std::size_t claim) : Question(together, claim, together.now.forms[claim]) {}
     /// Of another form of the claim, a repair that is tried; `form` must outlive it.
     Question(AskedTogether& together, std::size_t claim, const ClaimForm& form);
-    ~Question();
     Question(const Question&) = delete;
     Question& operator=(const Question&) = delete;
 
@@ -45,7 +44,7 @@ public:
     const std::size_t claim;
     CheckedClaim found = {};               ///< so far
     ExactStates* explained_at = nullptr;   ///< where it was refuted, if exact arithmetic may tell what is wrong
-    std::unique_ptr<LetterClaim> letters;  ///< once they were read (quantities.hpp)
+    std::function<void()> tell_last = {};  ///< adds to what was found
 
 private:
     const ClaimForm& form_;

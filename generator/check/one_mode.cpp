@@ -7,7 +7,6 @@
 #include "analysis/derive/derive.hpp"
 #include "analysis/state/force_balance.hpp"
 #include "base/language/say.hpp"
-#include "check/any_motion.hpp"
 #include "check/arithmetic_error.hpp"
 #include "check/claim_tree.hpp"
 #include "check/completeness.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The ways in which a question is decided (decide.hpp), by the files in which they stand.
+/// The ways in which a question is decided and explained (decide.hpp), by the files in which they stand.
 
 #include "check/decide.hpp"
 
@@ -14,6 +14,9 @@ std::optional<CheckedClaim> to_first_order(Question& q);
 /// solution.cpp: a motion in closed form, x = x0*cosh(sqrt(g/l)*t), is put into the equations of motion and the
 /// constraints, which must then hold at all times and for all values of the constants.
 std::optional<CheckedClaim> along_a_solution(Question& q);
+
+/// quantities.cpp: T, V, L, Q_q … mean what they do in a textbook, and leave a constant or a derivative open.
+std::optional<CheckedClaim> by_its_letters(Question& q);
 
 /// open_claims.cpp: whether some choice of the names that claims leave open satisfies them at every state.
 std::optional<CheckedClaim> with_open_names(Question& q);
@@ -42,5 +45,8 @@ std::optional<CheckedClaim> by_a_state(Question& q);
 /// Doubts that it holds where the scene moves.
 std::optional<CheckedClaim> along_own_motion(Question& q);
 std::optional<CheckedClaim> in_numbers_on_own_branch(Question& q);
+
+/// diagnosis.cpp: adds to what was refuted the nearest right equation, and the slip that was probably made.
+void explain(Question& q);
 
 }  // namespace alembert
