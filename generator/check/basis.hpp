@@ -35,7 +35,7 @@ public:
     struct Wanted {
         /// Positions in Mechanism::undetermined() of the reactions that are in the equations.
         std::vector<std::size_t> spoken = {};
-        bool is_any_motion = false;  ///< the equations that every motion obeys (check/any_motion.hpp)
+        bool is_any_motion = false;  ///< the equations that every motion obeys (any_motion)
         Motions::At at = Motions::At::motion;
         int halves = 0, halvings = 0;
         Motions::Positions positions = Motions::Positions::solved;
