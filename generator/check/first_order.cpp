@@ -19,7 +19,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int most_coordinates = 5, most_unknowns = 8;  // with the multipliers
+constexpr int most_coordinates = 6, most_unknowns = 9;  // with the multipliers
 
 std::vector<std::pair<std::string, ex>> values_near(const Claim& claim, Claims& read) {
     std::vector<std::pair<std::string, ex>> result;
