@@ -208,4 +208,17 @@ TEST_CASE("check: on branches for whose numbers exact arithmetic has no place, t
                    {proved, proved, proved, refuted, refuted, proved, proved, refuted});
 }
 
+// Where a = 1 the constraint says what a'' is; on the other branch it would be a further equation.
+TEST_CASE("check: the equations that are missing are counted on the scene's own branch") {
+    for (const char* product : {"(a - 1)*(a + 2*b)", "(a - b)*(a - 1)", "(a + 5*b)*(1 - a)", "(a - 1)*(a - b*e)",
+                                "(1 - a)*(a + e)", "(e - a*b)*(a - 1)"}) {
+        CAPTURE(std::string(product));
+        const Checked result = checked_on_sheets(bound("a = 1\nb = 3\ne = 0.5", {product}), "a'' = 0\n");
+        check_verdicts(result, {proved});
+        CHECK(!result.complete);
+        CHECK(result.missing == 2);
+        CHECK(result.freedom == 2);
+    }
+}
+
 }  // namespace check_branches

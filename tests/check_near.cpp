@@ -89,6 +89,48 @@ TEST_CASE("check: a double pendulum of particles and rods has the small swings o
                     {"x1 = 0, x2 = 0", "y2 = -l1-l2", proved}});
 }
 
+// (m + J/r²) x'' = -k x with J = 2/5 m r².
+TEST_CASE("check: a ball on a floor and a spring rolls to and fro, with three multipliers") {
+    const std::string at = "x = 0, y = 0, z = \"r\", theta = \"pi/2\"";
+    check_expected(
+        R"toml(gravity = [0, 0, "-g"]
+[parameters]
+m = 0.4
+r = 0.05
+g = 9.81
+k = 3
+[coordinates]
+x = 0
+y = 0
+z = { initial = "r" }
+psi = 0
+theta = { initial = "pi/2" }
+phi = 0
+[[frame]]
+name = "B"
+rotate = [["z", "psi"], ["x", "theta"], ["z", "phi"]]
+[[body]]
+name = "ball"
+mass = "m"
+frame = "B"
+inertia = ["2/5*m*r^2", "2/5*m*r^2", "2/5*m*r^2"]
+position = ["x", "y", "z"]
+[forces]
+x = "-k*x"
+y = "-k*y"
+[[constraint]]
+name = "floor"
+holonomic = "z - r"
+[[constraint]]
+name = "rolling_x"
+nonholonomic = "x' - r*dot(omega(ball), ey(N)) = 0"
+[[constraint]]
+name = "rolling_y"
+nonholonomic = "y' + r*dot(omega(ball), ex(N)) = 0"
+)toml",
+        {{at, "7*m*x'' + 5*k*x = 0", proved}, {at, "7*m*y'' = -5*k*y", proved}, {at, "m*x'' + k*x = 0", refuted}});
+}
+
 // Mathieu's equation and a support that is shaken sideways; what stays of them where the shaking is small.
 TEST_CASE("check: an input near a state has its values in time, or is small, which is told") {
     const auto shaken = [](const std::string& position) {

@@ -70,6 +70,23 @@ TEST_CASE("stability: a root that is typed as such is known to the digits of a d
     CHECK(exact["verdict"] == "unstable");
 }
 
+TEST_CASE("equilibrium: a verdict that rests on numbers says so") {
+    const auto kinds = [](const Json& one) {
+        std::vector<std::string> list;
+        for (const Json& assumed : one["assumed"]) list.push_back(assumed["kind"]);
+        return list;
+    };
+    const std::string well = pushed("x - x^3 - x'/2");
+    for (const Json& one : json_of({"equilibrium", well, "--json"})["equilibria"]) {
+        CHECK(one["stable"] != "undecided");
+        CHECK(kinds(one) == std::vector<std::string>{"numbers"});
+    }
+    CHECK(run({"equilibrium", well}).out.find("Not proved of 1, 2, 3: ") != std::string::npos);
+    const std::string fold = pushed("(x - 0.3)^2 - x'/2");  // where the first approximation does not decide
+    for (const Json& one : json_of({"equilibrium", fold, "--json"})["equilibria"]) CHECK(kinds(one).empty());
+    CHECK(run({"equilibrium", fold}).out.find("Not proved of") == std::string::npos);
+}
+
 TEST_CASE("equilibrium: a double or triple root is listed once") {
     for (const char* force : {"-(x - 0.2)^2*(x + 1.9)", "-x^3 - 1.5*x^2 + 0.72*x - 0.076",
                               "x^3 + 1.8*x^2 + 1.08*x + 0.216", "x^3 - 1.2*x^2 + 0.48*x - 0.064 - 0.5*x'"}) {

@@ -2,7 +2,6 @@
 #include "check/basis.hpp"
 
 #include "analysis/state/branch.hpp"
-#include "check/any_motion.hpp"
 
 namespace alembert {
 
@@ -41,6 +40,17 @@ ExactStates& Basis::states(const Wanted& wanted) {
     std::unique_ptr<ExactStates>& made = states_[wanted];
     if (!made) made = own_states(wanted, mechanism);
     return *made;
+}
+
+Equations any_motion(Equations e, const Mechanism& m) {
+    for (int i = 0; i < e.size(); ++i) {
+        const auto row = static_cast<unsigned>(i);
+        for (unsigned j = 0; j < e.M.cols(); ++j) e.M(row, j) = row == j ? 1 : 0;
+        e.own[i] = m.qddot[i];
+        e.dissipative[i] = 0;
+        e.applied[i] = 0;
+    }
+    return e;
 }
 
 }  // namespace alembert

@@ -35,7 +35,7 @@ public:
     struct Wanted {
         /// Positions in Mechanism::undetermined() of the reactions that are in the equations.
         std::vector<std::size_t> spoken = {};
-        bool is_any_motion = false;  ///< the equations that every motion obeys (check/any_motion.hpp)
+        bool is_any_motion = false;  ///< the equations that every motion obeys (any_motion)
         Motions::At at = Motions::At::motion;
         int halves = 0, halvings = 0;
         Motions::Positions positions = Motions::Positions::solved;
@@ -62,5 +62,10 @@ private:
     std::map<std::pair<std::vector<std::size_t>, bool>, std::optional<EquationTerms>> terms_;
     std::optional<std::optional<OwnBranch>> own_branch_;
 };
+
+/// Equations that every motion obeys that the constraints allow: q'' = w + Aᵀλ, A q'' = γ with any w. What follows
+/// from them alone is kinematics. For w stand the symbols q'' themselves, since exact states choose values for
+/// them before they solve.
+Equations any_motion(Equations equations, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -5,7 +5,7 @@
 ///
 ///     Comparison now{.scene = scene, .basis = basis, .m = basis.mechanism, .e = basis.equations, .claims =
 ///     claims}; now.at = Claim::At::rest;                       // what the claims speak of that are compared now
-///     settle_closed_claim(now, 2, states);            // writes now.verdicts[2]
+///     decide(now, {2});                               // writes now.verdicts[2]
 
 #include <optional>
 #include <set>
@@ -26,8 +26,10 @@ struct Comparison {
     const Mechanism& m;
     const Equations& e;
     Claims& claims;
-    std::vector<ClaimForm> forms = {};        ///< of the claims of the scene
-    std::vector<CheckedClaim> verdicts = {};  ///< likewise
+    std::vector<ClaimForm> forms = {};                 ///< of the claims of the scene
+    std::vector<CheckedClaim> verdicts = {};           ///< likewise
+    std::vector<std::vector<GiNaC::ex>> sheets = {};   ///< what is positive on the sheet of each claim
+    std::vector<std::vector<GiNaC::ex>> domains = {};  ///< and where each has a meaning
     /// What is positive on the sheet of the scene and its claims, not of repairs that are tried.
     std::vector<GiNaC::ex> positive = {};
     std::vector<GiNaC::ex> assumed = {};  ///< of these, what the claims assume themselves
@@ -44,7 +46,15 @@ struct Comparison {
     /// there.
     ExactStates* on_own_branch = nullptr;
     std::set<std::size_t> wrong = {};  ///< the wrong ones of claims that share open names
+
+    /// From now on the sheet is that of these claims: a claim alone is not judged by what another one needs.
+    void compare_on_sheet_of(const std::vector<std::size_t>& of);
+    /// Whether the constraints have branches, and the claims are about the motion on the scene's own.
+    bool knows_own_branch() { return at == Claim::At::motion && basis.own_branch().has_value(); }
 };
+
+/// Adds an expression that is positive to a list, if it is not there.
+void add_positive(std::vector<GiNaC::ex>& list, const GiNaC::ex& positive);
 
 /// Whether claims are about the scene's own branch of several. What a claim assumes may exclude that branch.
 bool has_branches(Comparison& now);
@@ -52,11 +62,5 @@ Told told(Comparison& now);
 
 /// How often angles must be halved for the residuals of these claims to be rational.
 int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims);
-
-/// The claim is refuted by this state.
-void refute(CheckedClaim& verdict, const Counterexample& shown);
-
-/// Adds to the verdict what is wrong with the claim. `states`: those at which it was compared.
-void explain(Comparison& now, std::size_t claim, ExactStates& states);
 
 }  // namespace alembert

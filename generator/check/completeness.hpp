@@ -15,7 +15,7 @@ struct Completeness {
 };
 
 /// Do the forms `right`, together with the constraints, determine every acceleration after the open names of the
-/// claims are eliminated? Ranks at an exact state decide this.
+/// claims are eliminated? Ranks at an exact state decide this, one where they all hold if possible.
 Completeness completeness(Basis& basis, const Claims& claims, const std::vector<const ClaimForm*>& right);
 
 }  // namespace alembert

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "check/diagnosis.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,12 +8,18 @@
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "check/arithmetic_error.hpp"
 #include "check/claim_arithmetic.hpp"
+#include "check/jump.hpp"
+#include "check/missing_terms.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
 #include "check/phrase_tree.hpp"
+#include "check/quantities.hpp"
+#include "check/slip.hpp"
 #include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
+#include "check/ways.hpp"
 #include "model/formalism/rest.hpp"
 #include "scene/dimensions.hpp"
 
@@ -33,16 +37,24 @@ bool has_primes(const Tree& tree) {
 
 class Diagnostician {
 public:
-    Diagnostician(const WrongClaim& asked, ExactStates& states)
-        : asked_(asked),
-          claim_(asked.scene.claims[asked.claim]),
-          form_(asked.forms[asked.claim]),
-          claims_(asked.claims),
-          m_(asked.claims.mechanism()),
-          states_(states) {}
+    /// What is right up to a constant is explained at states of any motion.
+    explicit Diagnostician(Question& q)
+        : q_(q),
+          now_(q.now),
+          claim_(now_.scene.claims[q.claim]),
+          form_(now_.forms[q.claim]),
+          claims_(now_.claims),
+          m_(now_.m),
+          is_in_motion_(now_.at == Claim::At::motion),
+          is_at_impact_(now_.at == Claim::At::impact),
+          any_(is_in_motion_ && letters_in(claim_, claims_).constant
+                   ? std::make_unique<AnyStates>(m_, now_.e, halvings_in(now_, {q.claim}))
+                   : nullptr),
+          is_up_to_constant_(any_ && any_->get() != nullptr),
+          states_(is_up_to_constant_ ? *any_->get() : *q.explained_at) {}
 
-    Diagnosis diagnosis() {
-        Diagnosis result;
+    CheckedClaim diagnosis() {
+        CheckedClaim result;
         if (const std::string names = names_of_shared_constants(); !names.empty()) {
             result.reason =
                 say("it holds by itself, but in another claim {} has another value: what has another "
@@ -56,7 +68,7 @@ public:
             result.reason = say("it holds at the scene's values of the parameters only");
         std::optional<ClaimArithmetic> arithmetic = arithmetic_of_claim();
         const std::optional<Repair> repair =
-            likely_slip(claim_, form_.residual, m_, asked_.law,
+            likely_slip(claim_, form_.residual, m_, now_.law,
                         {.is_right = [this](const Claim& claim) { return is_right(claim); },
                          .vanishes = [this](const Expression& value) { return vanishes(value); },
                          .terms = [this]() -> const EquationTerms& { return terms(); },
@@ -67,14 +79,17 @@ public:
         else
             tell_nearest(result);
         if (!result.likely)
-            if (const auto term = term_of_wrong_unit(claim_, asked_.scene))
+            if (const auto term = term_of_wrong_unit(claim_, now_.scene))
                 result.likely = Slip{.kind = "wrong_unit", .term = *term};
         return result;
     }
 
+    /// Into what the claim was corrected.
+    const std::optional<ClaimForm>& repaired() const { return repaired_; }
+
 private:
     /// What the claim has beyond the equation into which it was corrected.
-    void tell(const Repair& repair, Diagnosis& result) {
+    void tell(const Repair& repair, CheckedClaim& result) {
         constexpr double largest_tree = 3000;
         constexpr std::size_t most_terms = 8;
         result.likely = repair.slip;
@@ -82,8 +97,8 @@ private:
         Claim repaired = claim_;
         repaired.equation = repair.equation;
         try {
-            result.repaired = claims_.read(repaired);
-            const ex beyond = form_.residual - result.repaired->residual;
+            repaired_ = claims_.read(repaired);
+            const ex beyond = form_.residual - repaired_->residual;
             if (m_.z->tree_size(beyond) > largest_tree) return;
             const auto f = fourier(m_.z->expand(beyond), *m_.symbols, most_terms);
             if (f && f->size() > 0) result.difference = text(readable(*f));
@@ -92,9 +107,9 @@ private:
         }
     }
 
-    void tell_nearest(Diagnosis& result) {
-        if (!form_.open.empty() || !asked_.in_motion) return;
-        if (const auto nearest = nearest_equation(form_.residual, m_, asked_.law)) {
+    void tell_nearest(CheckedClaim& result) {
+        if (!form_.open.empty() || !is_in_motion_) return;
+        if (const auto nearest = nearest_equation(form_.residual, m_, now_.law)) {
             result.nearest = nearest->equation;
             result.difference = nearest->difference;
         }
@@ -102,12 +117,12 @@ private:
 
     bool is_right(const Claim& repaired) {
         // What speaks of rates says nothing at rest.
-        const bool is_at_rest = !asked_.in_motion && !asked_.at_impact;
+        const bool is_at_rest = !is_in_motion_ && !is_at_impact_;
         if (is_at_rest && (has_primes(*repaired.equation.lhs.tree) || has_primes(*repaired.equation.rhs.tree)))
             return false;
         try {
             const bool may_be_identity =
-                asked_.at_impact || speaks_of_scene(repaired, m_) || differentiates(repaired);
+                is_at_impact_ || speaks_of_scene(repaired, m_) || differentiates(repaired);
             return holds_quickly(claims_.read(repaired), may_be_identity);
         } catch (const SceneMistake&) {
             return false;
@@ -130,13 +145,13 @@ private:
     }
 
     const EquationTerms& terms() {
-        if (!asked_.known) asked_.known = equation_terms(m_, asked_.law);
-        return *asked_.known;
+        if (!*now_.known) *now_.known = equation_terms(m_, now_.law);
+        return **now_.known;
     }
 
     /// Which time derivative of the claim is free of what it leaves open; nothing if none is.
     std::optional<int> free_derivative() {
-        if (asked_.up_to_constant) return 1;
+        if (is_up_to_constant_) return 1;
         if (form_.open.empty()) return 0;
         for (std::size_t k = 0; k < form_.derivatives.size(); ++k)
             if (!m_.z->depends(form_.derivatives[k], claims_.open_symbols())) return static_cast<int>(k) + 1;
@@ -180,7 +195,7 @@ private:
     /// The node of `value`. Returns nothing if the expression cannot be translated or contains open names.
     std::optional<int> node_of(Program& p, const Expression& value) {
         try {
-            const ex e = asked_.at_impact ? claims_.read_at_impact(value) : claims_.read(value);
+            const ex e = is_at_impact_ ? claims_.read_at_impact(value) : claims_.read(value);
             if (m_.z->depends(e, claims_.open_symbols())) return std::nullopt;
             return claims_.lower(p, {e})[0];
         } catch (const std::exception&) {
@@ -215,13 +230,13 @@ private:
         const std::optional<int> derivative = free_derivative();
         if (!derivative) return {};
         Program p;
-        const ex own = *derivative == 0        ? form_.residual
-                       : asked_.up_to_constant ? m_.time_derivative({form_.residual})[0]
-                                               : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
+        const ex own = *derivative == 0     ? form_.residual
+                       : is_up_to_constant_ ? m_.time_derivative({form_.residual})[0]
+                                            : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
         const int residual = claims_.lower(p, {own})[0];
         std::vector<Factors> terms;
         std::vector<int> nodes;
-        for (Factors& term : terms_of_mechanics(claim_, m_, asked_.law, this->terms(), *derivative > 0)) {
+        for (Factors& term : terms_of_mechanics(claim_, m_, now_.law, this->terms(), *derivative > 0)) {
             const TreePtr tree = product_of(term);
             const std::optional<int> node = node_of_derivative(p, expression_of(*tree), *derivative);
             if (!node || p.is_zero(*node)) continue;
@@ -246,7 +261,7 @@ private:
             const Factors& term = terms[found.term];
             const bool is_one = term.size() == 1 && term[0]->kind == Tree::Kind::number && term[0]->text == "1";
             Factors factors = times(found.coefficient, steady, is_one ? Factors() : term);
-            const bool has_rate = asked_.at_impact && has_primes(*product_of(term));
+            const bool has_rate = is_at_impact_ && has_primes(*product_of(term));
             result.push_back({product_of(std::move(factors)), found.effort + (has_rate ? of_rate : 0)});
         }
         std::stable_sort(result.begin(), result.end(),
@@ -257,24 +272,24 @@ private:
     /// An identity is no repair, unless it says something: how a vector of the scene is composed.
     bool holds_quickly(const ClaimForm& given, bool may_be_identity) {
         ClaimForm form = given;
-        if (asked_.up_to_constant) {
+        if (is_up_to_constant_) {
             if (given.order > 1) return false;
             form.residual = m_.time_derivative({given.residual})[0];
         }
         if (!form.open.empty()) {
             // The claim is tested with the right claims of its group; if these do not determine the open names, it
             // is tested with all claims of the group.
-            std::vector<ClaimForm> forms = asked_.forms;
-            forms[asked_.claim] = form;
+            std::vector<ClaimForm> forms = now_.forms;
+            forms[q_.claim] = form;
             if (!form.derivatives.empty() &&
                 std::all_of(form.derivatives.begin(), form.derivatives.end(),
                             [](const ex& derivative) { return derivative.is_zero(); }))
                 return false;  // it says nothing of the motion
-            std::vector<std::size_t> group = group_of(asked_.scene, forms, asked_.claim), right = group;
-            std::erase_if(
-                right, [&](std::size_t other) { return other != asked_.claim && asked_.wrong.contains(other); });
+            std::vector<std::size_t> group = group_of(now_.scene, forms, q_.claim), right = group;
+            std::erase_if(right,
+                          [&](std::size_t other) { return other != q_.claim && now_.wrong.contains(other); });
             return agrees(forms, right) || (right.size() < group.size() && agrees(forms, group)) ||
-                   (!form.derivatives.empty() && agrees(forms, {asked_.claim}));
+                   (!form.derivatives.empty() && agrees(forms, {q_.claim}));
         }
         Program p;
         const int root = claims_.lower(p, {form.residual})[0];
@@ -289,7 +304,7 @@ private:
             if (!claims_.open()[static_cast<std::size_t>(open)].constant) return {};
             names += (names.empty() ? "" : ", ") + claims_.open()[static_cast<std::size_t>(open)].name;
         }
-        return !names.empty() && agrees(asked_.forms, {asked_.claim}) ? names : std::string();
+        return !names.empty() && agrees(now_.forms, {q_.claim}) ? names : std::string();
     }
 
     bool agrees(const std::vector<ClaimForm>& forms, const std::vector<std::size_t>& group) {
@@ -297,7 +312,7 @@ private:
         const std::size_t wanted = states_needed(rows.program, rows.roots(), states_) == states_of_sides ? 20 : 2;
         for (std::size_t s = 0; s < wanted; ++s) {
             const auto at = open_matrix(rows, states_, s);
-            if (!at || !consistent(at->rows) || pins(rows, *at, {}, asked_.claim)) return false;
+            if (!at || !consistent(at->rows) || pins(rows, *at, {}, q_.claim)) return false;
         }
         return true;
     }
@@ -368,18 +383,62 @@ private:
         return say("it fails at some of the states of rest");
     }
 
-    const WrongClaim& asked_;
+    Question& q_;
+    Comparison& now_;
     const Claim& claim_;
     const ClaimForm& form_;
     Claims& claims_;
     const Mechanism& m_;
+    const bool is_in_motion_, is_at_impact_;
+    const std::unique_ptr<AnyStates> any_;
+    const bool is_up_to_constant_;
     ExactStates& states_;
+    std::optional<ClaimForm> repaired_;
 };
+
+/// Whether the corrected claim stands a look in numbers, where exact arithmetic may err: signs, jumps of what is
+/// called constant, multiples of the prime.
+bool stands(Question& q, const ClaimForm& repaired) {
+    Comparison& now = q.now;
+    ExactStates& states = *q.explained_at;
+    const Motions& motions = states.motions;
+    if (!repaired.open.empty()) {
+        std::vector<ClaimForm> forms = now.forms;
+        forms[q.claim] = repaired;
+        const OpenRows rows = open_rows(now.claims, forms, {q.claim});
+        const FoundJump jump =
+            find_jump(told(now), motions, rows.program, rows.list[0].rest, is_kept(now, states));
+        if (jump.shown || jump.is_unknown) return false;
+        if (!depends_on_sides(rows.program, rows.roots()) && !motions.has_sides()) return true;
+        constexpr unsigned tries = 40;
+        const std::set<std::size_t> wrong = {q.claim};
+        return !counterexample(told(now), motions, rows,
+                               {.claim = q.claim, .open = repaired.open, .wrong = wrong, .tries = tries});
+    }
+    Question of_repaired(q.together, q.claim, repaired);
+    const auto seen = [&] { return in_numbers(told(now), motions, of_repaired.program(), of_repaired.root()); };
+    const std::vector<int> root{of_repaired.root()};
+    if (now.at == Claim::At::rest) return seen() != InNumbers::fails;
+    if (has_long_numbers(of_repaired.program(), root)) return seen() == InNumbers::holds;
+    if (fails_in_a_cell(of_repaired, states)) return false;
+    const bool may_err = depends_on_sides(of_repaired.program(), root) || now.on_own_branch != nullptr;
+    return !may_err || seen() != InNumbers::fails;
+}
 
 }  // namespace
 
-Diagnosis diagnose(const WrongClaim& asked, ExactStates& states) {
-    return Diagnostician(asked, states).diagnosis();
+void explain(Question& q) try {
+    Diagnostician diagnostician(q);
+    CheckedClaim of = diagnostician.diagnosis();
+    if (!of.reason.empty()) q.found.reason = of.reason;
+    // An acceleration means nothing at an impact; x'' stands for x'(-) there.
+    const bool is_beyond_impact = q.now.at == Claim::At::impact && of.nearest.find("''") != std::string::npos;
+    if (is_beyond_impact || (diagnostician.repaired() && !stands(q, *diagnostician.repaired()))) return;
+    q.found.nearest = std::move(of.nearest);
+    q.found.difference = std::move(of.difference);
+    q.found.likely = std::move(of.likely);
+} catch (const std::exception&) {
+    words_of_arithmetic_error();  // the claim is refuted, with a state to see it, even if nothing explains it
 }
 
 }  // namespace alembert

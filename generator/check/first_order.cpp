@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "check/first_order.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,6 +10,7 @@
 #include "check/near_point.hpp"
 #include "check/quantities.hpp"
 #include "check/total_derivative.hpp"
+#include "check/ways.hpp"
 #include "check/zero.hpp"
 
 namespace alembert {
@@ -20,7 +19,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int most_coordinates = 5, most_unknowns = 8;  // with the multipliers
+constexpr int most_coordinates = 6, most_unknowns = 9;  // with the multipliers
 
 std::vector<std::pair<std::string, ex>> values_near(const Claim& claim, Claims& read) {
     std::vector<std::pair<std::string, ex>> result;
@@ -37,47 +36,41 @@ public:
           residual_(near_.read(m_.z->expand(read.read(claim).residual))),
           spoken_(letters_in(claim, read)) {}
 
-    void settle(CheckedClaim& result) {
+    CheckedClaim settle() {
         const int size = m_.size() + static_cast<int>(e_.A.size());
         if (!m_.redundant.empty() || !m_.unilateral.empty() || m_.size() > most_coordinates ||
-            size > most_unknowns) {
-            result.reason =
+            size > most_unknowns)
+            return undecided(
                 say("claims to first order are decided for scenes of at most {} coordinates, and {} with the "
                     "multipliers, without contacts and without constraints that follow from others",
-                    most_coordinates, most_unknowns);
-            return;
-        }
-        result.reason = near_.obstacle();
-        if (!result.reason.empty()) return;
-        if (spoken_.constant || spoken_.derivative || spoken_.kinetic) return settle_energy(result);
-        std::vector<ZeroTest> tests{zero_test(near_.at(residual_), m_)};
-        if (tests[0].zero == false) result.reason = say("it does not even hold at the point itself");
+                    most_coordinates, most_unknowns));
+        if (const std::string obstacle = near_.obstacle(); !obstacle.empty()) return undecided(obstacle);
+        if (spoken_.constant || spoken_.derivative || spoken_.kinetic) return settle_energy();
+        std::vector<CheckedClaim> tests{zero_test(near_.at(residual_), m_)};
+        const bool fails_there = tests[0].verdict == Verdict::refuted;
         const auto slopes = eliminated();
-        if (!slopes) {
-            result.reason = say("the equations do not determine the accelerations there");
-            return;
-        }
+        if (!slopes) return undecided(say("the equations do not determine the accelerations there"));
         for (const ex& slope : *slopes) tests.push_back(zero_test(slope, m_));
-        const std::string reason = result.reason;
-        settle_by(tests, result);
-        if (!reason.empty()) result.reason = reason;
-        if (result.verdict != Verdict::refuted) return;
-        if (reason.empty()) result.difference = written(*slopes);
+        CheckedClaim result = all_of(tests);
+        if (result.verdict != Verdict::refuted) return result;
+        if (fails_there)
+            result.reason = say("it does not even hold at the point itself");
+        else
+            result.difference = written(*slopes);
         result.nearest = nearest();
+        return result;
     }
 
 private:
     using Small = NearPoint::Small;
 
     /// Energies are held to second order, because the linear equations follow from their quadratic parts.
-    void settle_energy(CheckedClaim& result) {
-        if (!e_.A.empty()) {
-            result.reason = say("energies near a state are decided where the coordinates are independent");
-            return;
-        }
+    CheckedClaim settle_energy() {
+        if (!e_.A.empty())
+            return undecided(say("energies near a state are decided where the coordinates are independent"));
         const ex constant = near_.at(residual_);
         ex quadratic = 0;
-        std::vector<ZeroTest> tests;
+        std::vector<CheckedClaim> tests;
         for (const Small& a : near_.small()) {
             const ex slope = residual_.diff(a.variable);
             tests.push_back(zero_test(near_.at(slope), m_));
@@ -88,14 +81,13 @@ private:
                 quadratic += second * deviation(a) * deviation(b) / 2;
             }
         }
-        const ZeroTest own = zero_test(constant, m_);
+        const CheckedClaim own = zero_test(constant, m_);
         if (spoken_.kinetic) tests.push_back(own);
-        settle_by(tests, result);
-        if (result.verdict == Verdict::proved && own.zero != true)
+        CheckedClaim result = all_of(tests);
+        if (result.verdict == Verdict::proved && own.verdict != Verdict::proved)
             result.up_to = UpTo{.kind = UpTo::Kind::constant};
         if (result.verdict == Verdict::refuted && spoken_.derivative && is_void(quadratic)) {
-            result = CheckedClaim();
-            result.verdict = Verdict::proved;
+            result = proved(0);
             result.normal_form = true;
             result.up_to = UpTo{.kind = UpTo::Kind::derivative};
         }
@@ -106,12 +98,13 @@ private:
                     ? say("right to second order and up to a constant")
                     : say("right to second order and up to a time derivative, which changes no equation "
                           "of motion");
+        return result;
     }
 
     /// Whether this part of a Lagrangian changes no equation of motion.
     bool is_void(const ex& part) const {
         for (const ex& equation : euler_operator(m_.z->name(part), m_))
-            if (zero_test(m_.z->expand(equation), m_).zero != true) return false;
+            if (!is_zero(m_.z->expand(equation), m_)) return false;
         return true;
     }
 
@@ -190,19 +183,21 @@ std::vector<std::string> moving_inputs(const Mechanism& m) {
 
 }  // namespace
 
-void check_first_order(const Claim& claim, Claims& read, CheckedClaim& result) {
-    FirstOrder(claim, read, NearPoint::Inputs::small).settle(result);
-    const std::vector<std::string> inputs = moving_inputs(read.mechanism());
-    if (inputs.empty()) return;
+std::optional<CheckedClaim> to_first_order(Question& q) {
+    if (q.now.at != Claim::At::near) return std::nullopt;
+    Claims& read = q.now.claims;
+    const Claim& claim = q.now.scene.claims[q.claim];
+    CheckedClaim result = FirstOrder(claim, read, NearPoint::Inputs::small).settle();
+    const std::vector<std::string> inputs = moving_inputs(q.now.m);
+    if (inputs.empty()) return result;
     // Whatever the inputs are: cos(w*t)*theta, a support that shakes, is small then, and so is theta.
-    CheckedClaim in_time;
-    FirstOrder(claim, read, NearPoint::Inputs::in_time).settle(in_time);
-    const bool writes_time = read.mechanism().z->depends(read.read(claim).residual, {read.mechanism().t});
-    if (in_time.verdict == Verdict::proved || (in_time.verdict == Verdict::refuted && writes_time))
-        result = std::move(in_time);
-    else if (result.verdict == Verdict::proved)
+    CheckedClaim in_time = FirstOrder(claim, read, NearPoint::Inputs::in_time).settle();
+    const bool writes_time = q.now.m.z->depends(read.read(claim).residual, {q.now.m.t});
+    if (in_time.verdict == Verdict::proved || (in_time.verdict == Verdict::refuted && writes_time)) return in_time;
+    if (result.verdict == Verdict::proved)
         result.assumed.push_back(
             {Assumption::Kind::small, say("{} is small, as the deviations are", fmt::join(inputs, ", ")), false});
+    return result;
 }
 
 }  // namespace alembert

@@ -125,10 +125,10 @@ std::vector<std::string> squares_of(const std::vector<ex>& c, const Mechanism& m
     for (std::size_t k = 0; k < c.size(); ++k) {
         if (k % 2 == 0)
             even.push_back(k % 4 == 0 ? c[k] : -c[k]);
-        else if (zero_test(c[k], m).zero != true)
+        else if (!is_zero(c[k], m))
             return {};
     }
-    while (!even.empty() && zero_test(even.back(), m).zero == true) even.pop_back();
+    while (!even.empty() && is_zero(even.back(), m)) even.pop_back();
     std::vector<std::string> result;
     if (even.size() == 2) result = {in_print((-even[0] / even[1]).normal(), m)};
     if (even.size() == 3) {
@@ -166,14 +166,11 @@ CheckedFrequency check_frequency(const AtPoint& point, const Expression& square)
         const auto [real, imaginary] = at_frequency(c, claimed);
         return std::vector{zero_test(real, near.mechanism()), zero_test(imaginary, near.mechanism())};
     };
-    settle_by(tests(), result);
-    const auto vanish = [](const std::vector<ZeroTest>& list) {
-        return std::all_of(list.begin(), list.end(), [](const ZeroTest& test) { return test.zero == true; });
-    };
+    static_cast<CheckedClaim&>(result) = all_of(tests());
     // s = 0 is counted once for each of ±ω.
-    const int halves = zero_test(claimed, near.mechanism()).zero == true ? 2 : 1;
+    const int halves = is_zero(claimed, near.mechanism()) ? 2 : 1;
     int roots = 0;
-    for (; !c.empty() && vanish(tests()); c = differentiated(c)) ++roots;
+    for (; !c.empty() && all_of(tests()).verdict == Verdict::proved; c = differentiated(c)) ++roots;
     result.multiplicity = roots / halves;
     if (result.verdict != Verdict::refuted || result.squares.empty()) return result;
     std::string all;
@@ -206,14 +203,14 @@ CheckedClaim check_mode(const AtPoint& point, const std::vector<std::pair<std::s
     }
     ex value = square ? near.read(*square) : ex(0);
     for (std::size_t i = 0; !square && i < even.size(); ++i)
-        if (const ex slope = even[i].diff(w); zero_test(slope, m).zero == false) {
+        if (const ex slope = even[i].diff(w); zero_test(slope, m).verdict == Verdict::refuted) {
             value = (-even[i].subs(w == 0) / slope).normal();
             break;
         }
-    std::vector<ZeroTest> tests;
+    std::vector<CheckedClaim> tests;
     for (const ex& e : even) tests.push_back(zero_test(e.subs(w == value), m));
     for (const ex& e : odd) tests.push_back(zero_test(e, m));
-    settle_by(tests, result);
+    result = all_of(tests);
     if (result.verdict == Verdict::proved && !square)
         if (const std::string found = in_print(value, m); !found.empty())
             result.reason = say("a mode with omega^2 = {}", found);

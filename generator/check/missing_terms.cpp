@@ -6,6 +6,7 @@
 
 #include "algebra/symbolic/fourier.hpp"
 #include "analysis/derive/derivation.hpp"
+#include "check/edits.hpp"
 #include "check/nearest.hpp"
 #include "check/phrase_tree.hpp"
 

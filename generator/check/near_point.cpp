@@ -24,9 +24,9 @@ struct NormalField {
 
     std::optional<std::size_t> pivot(RowsOf<ex>& rows, std::size_t first, std::size_t column) const {
         for (std::size_t r = first; r < rows.size(); ++r) {
-            const auto zero = zero_test(rows[r][column], m).zero;
-            if (!zero) return std::nullopt;
-            if (!*zero) return r;
+            const Verdict zero = zero_test(rows[r][column], m).verdict;
+            if (zero == Verdict::undecided) return std::nullopt;
+            if (zero == Verdict::refuted) return r;
             rows[r][column] = 0;
         }
         return rows.size();
@@ -104,7 +104,7 @@ std::string NearPoint::obstacle() {
             if (m_.z->tree_size(row) > longest_tested) return too_long();
             bound_.push_back(read(m_.z->expand(row)));
             const bool is_solved = !in_time_.empty() && bound_.size() % rows_of_constraint == 1;
-            if (!is_solved && zero_test(at(bound_.back()), m_).zero != true)
+            if (!is_solved && !is_zero(at(bound_.back()), m_))
                 return say("what it is held near does not obey the constraint '{}'", c.name);
         }
     }
@@ -118,7 +118,7 @@ std::string NearPoint::obstacle() {
     }
     if (!find_multipliers()) return say("the constraints leave their multipliers open there");
     for (int i = 0; i < m_.size(); ++i)
-        if (zero_test(at(rows_[static_cast<std::size_t>(i)]), m_).zero != true) {
+        if (!is_zero(at(rows_[static_cast<std::size_t>(i)]), m_)) {
             is_no_equilibrium_ = true;
             return say(
                 "what it is held near is no equilibrium and no steady motion: the equation of {} does "

@@ -2,7 +2,6 @@
 #include "check/open_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "check/vanishing.hpp"
 #include "program/reduce_rows.hpp"
@@ -74,7 +73,7 @@ std::optional<OpenMatrix> open_matrix(const OpenRows& rows, const ExactState& st
     double degree = 1;
     for (const int id : roots) degree = std::max(degree, at->degree[id]);
     degree = (static_cast<double>(rows.list.size()) * degree + 1) * std::max(1.0, state.degree);
-    result.chance = std::log2(degree) + at->conditions + state.conditions - state.field;
+    result.chance = chance_at(state, degree, *at);
     for (const OpenRows::Row& row : rows.list) {
         result.rows.emplace_back();
         for (const int id : row.slope) result.rows.back().push_back(at->value[id]);
@@ -164,37 +163,31 @@ std::pair<OpenRows, OpenMatrix> without(const OpenRows& rows, const OpenMatrix& 
 
 std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::size_t>& group,
                                    ExactStates& states) {
-    double failure = 0, missed = 0;
-    int usable = 0;
+    LeftToChance left;
     const int least = states_needed(rows.program, rows.roots(), states);
     std::optional<OpenMatrix> first;
     std::set<std::size_t> wrong;
-    const auto is_enough = [&] {
-        return failure <= wanted_failure && missed <= wanted_failure && usable >= least;
-    };
+    const auto is_enough = [&] { return left.is_small() && left.states >= least; };
     for (std::size_t s = 0; s < most_states && !is_enough() && wrong.size() < group.size(); ++s) {
         auto at = open_matrix(rows, states, s);
         if (!at) {
             if (states.get(s) == nullptr) break;
             continue;
         }
-        failure += at->chance;
-        missed += chance_of_another_branch(*states.get(s));
+        left.add(at->chance, *states.get(s));
         if (!first) first = *at;
-        ++usable;
         // What is left when a claim is wrong has to hold at all states as well: another claim may fail on another
         // side.
         const auto [part, here] = without(rows, *at, wrong);
         if (consistent(here.rows)) continue;
-        std::vector<std::size_t> left = group;
-        std::erase_if(left, [&](std::size_t k) { return wrong.contains(k); });
-        wrong.merge(culprits(part, here, left));
-        failure = missed = 0;
-        usable = 0;
+        std::vector<std::size_t> others = group;
+        std::erase_if(others, [&](std::size_t k) { return wrong.contains(k); });
+        wrong.merge(culprits(part, here, others));
+        left = {};
     }
     if (!first || (!is_enough() && wrong.empty())) return std::nullopt;
     return OpenJudgement{.wrong = wrong,
-                         .failure = failure,
+                         .failure = left.failure,
                          .first = *first,
                          .is_complete = is_enough() || wrong.size() == group.size()};
 }

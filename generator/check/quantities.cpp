@@ -2,17 +2,16 @@
 #include "check/quantities.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
-#include "check/any_motion.hpp"
 #include "check/claim_tree.hpp"
 #include "check/open_rows.hpp"
 #include "check/total_derivative.hpp"
 #include "check/vanishing.hpp"
+#include "check/ways.hpp"
 #include "scene/book_letters.hpp"
 #include "scene/functions.hpp"
 
@@ -87,9 +86,8 @@ bool are_reactions(Comparison& now, const std::vector<ex>& values, ExactStates& 
         roots.insert(roots.end(), more.begin(), more.end());
     }
     const std::size_t rows = roots.size() / columns;
-    failure = 0;
-    double missed = 0;
-    for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure); ++s) {
+    LeftToChance left;
+    for (std::size_t s = 0; s < most_states && !left.is_small(); ++s) {
         const ExactState* const state = states.get(s);
         if (state == nullptr) return false;
         const auto at = evaluate_mod(p, state->point, roots);
@@ -103,10 +101,10 @@ bool are_reactions(Comparison& now, const std::vector<ex>& values, ExactStates& 
         const int all = rank_of(matrix, columns);
         matrix.erase(matrix.begin());
         if (rank_of(matrix, columns) != all) return false;
-        failure += std::log2(degree) + at->conditions + state->conditions - state->field;
-        missed += chance_of_another_branch(*state);
+        left.add(chance_at(*state, degree, *at), *state);
+        failure = left.failure;
     }
-    return failure <= wanted_failure && missed <= wanted_failure;
+    return left.is_small();
 }
 
 std::optional<std::string> shown(const ex& e, const Mechanism& m) {
@@ -178,14 +176,47 @@ std::string words_of_identity() {
     return say("a relation between the quantities themselves: it holds whatever the motion");
 }
 
-LetterClaim::LetterClaim(Comparison& now, std::size_t k, ExactStates& states)
-    : now_(now),
-      k_(k),
-      states_(states),
-      spoken_(letters_in(now.scene.claims[k], now.claims)),
-      c_(now.verdicts[k]) {}
+namespace {
 
-LetterClaim::~LetterClaim() = default;
+/// `settle`, then, if that is false, the comparison of the sides as they stand, then `tell`.
+class LetterClaim {
+public:
+    explicit LetterClaim(Question& q)
+        : now_(q.now),
+          k_(q.claim),
+          states_(*q.together.states),
+          spoken_(letters_in(now_.scene.claims[k_], now_.claims)),
+          c_(q.found) {}
+
+    /// Decides a claim that is right though its sides are not equal as they were read; returns whether it did. A
+    /// claim that is wrong is left in the reading that is nearer.
+    bool settle();
+    /// Adds to the verdict how the letters were read, and of a wrong claim what the quantity is.
+    void tell();
+
+private:
+    bool vanishes(const GiNaC::ex& residual);
+    bool prove();
+    ExactStates* any(const GiNaC::ex& e);
+    std::optional<std::vector<GiNaC::ex>> coefficients(const GiNaC::ex& residual) const;
+    bool holds_for_allowed(const ClaimForm& form);
+    GiNaC::ex excess() const;
+    bool is_steady(const GiNaC::ex& e) const;
+    bool is_constant();
+    bool is_derivative();
+    void choose(const std::vector<ClaimForm>& readings);
+    void tell_right_side();
+    void tell_reading();
+
+    Comparison& now_;
+    std::size_t k_;
+    ExactStates& states_;
+    const SpokenLetters spoken_;
+    CheckedClaim& c_;
+    std::unique_ptr<AnyStates> any_;
+    bool loads_ = false;            ///< whether the forces are those of the loads alone
+    std::optional<int> displaced_;  ///< the coordinate whose virtual displacement alone is not zero
+};
 
 bool LetterClaim::settle() {
     if (!spoken_.any || now_.at != Claim::At::motion || vanishes(now_.forms[k_].residual)) return false;
@@ -368,6 +399,16 @@ void LetterClaim::tell() {
     }
     if (spoken_.forces && c_.verdict == Verdict::proved) tell_reading();
     now_.claims.read_forces_as_whole(true);
+}
+
+}  // namespace
+
+std::optional<CheckedClaim> by_its_letters(Question& q) {
+    const auto letters = std::make_shared<LetterClaim>(q);
+    q.tell_last = [letters] { letters->tell(); };
+    const bool is_right = letters->settle();
+    q.lower();  // in the reading that was chosen
+    return is_right ? std::optional(q.found) : std::nullopt;
 }
 
 }  // namespace alembert

@@ -9,7 +9,6 @@
 ///     Q_theta = …                    right if it is the whole generalized force, or that of the loads that are
 ///     not in V deltaW = …                     right for the virtual displacements that the constraints allow
 
-#include <memory>
 #include <string>
 
 #include "check/comparison.hpp"
@@ -44,46 +43,6 @@ public:
 
 private:
     std::optional<ExactStates> states_;
-};
-
-/// A claim that may speak of letters. `settle`, then, if that is false, the comparison of the sides as they stand,
-/// then `tell`.
-class LetterClaim {
-public:
-    /// `states`: those at which it is compared.
-    LetterClaim(Comparison& now, std::size_t claim, ExactStates& states);
-    ~LetterClaim();
-    LetterClaim(const LetterClaim&) = delete;
-    LetterClaim& operator=(const LetterClaim&) = delete;
-
-    /// Decides a claim that is right though its sides are not equal as they were read; returns whether it did. A
-    /// claim that is wrong is left in the reading that is nearer.
-    bool settle();
-    /// Adds to the verdict how the letters were read, and of a wrong claim what the quantity is.
-    void tell();
-
-private:
-    bool vanishes(const GiNaC::ex& residual);
-    bool prove();
-    ExactStates* any(const GiNaC::ex& e);
-    std::optional<std::vector<GiNaC::ex>> coefficients(const GiNaC::ex& residual) const;
-    bool holds_for_allowed(const ClaimForm& form);
-    GiNaC::ex excess() const;
-    bool is_steady(const GiNaC::ex& e) const;
-    bool is_constant();
-    bool is_derivative();
-    void choose(const std::vector<ClaimForm>& readings);
-    void tell_right_side();
-    void tell_reading();
-
-    Comparison& now_;
-    std::size_t k_;
-    ExactStates& states_;
-    const SpokenLetters spoken_;
-    CheckedClaim& c_;
-    std::unique_ptr<AnyStates> any_;
-    bool loads_ = false;            ///< whether the forces are those of the loads alone
-    std::optional<int> displaced_;  ///< the coordinate whose virtual displacement alone is not zero
 };
 
 }  // namespace alembert

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "check/solution.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "base/language/say.hpp"
+#include "check/ways.hpp"
 #include "check/zero.hpp"
 
 namespace alembert {
@@ -135,7 +134,7 @@ void eliminate_open_multipliers(std::vector<Put>& rows, const Motion& motion) {
             for (const GiNaC::symbol& multiplier : motion.open_multipliers(row->left)) {
                 const ex slope = row->left.diff(multiplier);
                 const bool is_better = pivot == rows.end() || slope.nops() < size.nops();
-                if (!is_better || zero_test(slope, motion.mechanism()).zero != false) continue;
+                if (!is_better || zero_test(slope, motion.mechanism()).verdict != Verdict::refuted) continue;
                 pivot = row;
                 open = multiplier;
                 size = slope;
@@ -160,7 +159,7 @@ void eliminate_open_multipliers(std::vector<Put>& rows, const Motion& motion) {
 void check_motion(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
                   std::vector<CheckedClaim>& claims) {
     const Motion motion(scene, read, which);
-    std::vector<std::vector<ZeroTest>> tests(which.size());
+    std::vector<std::vector<CheckedClaim>> tests(which.size());
     std::vector<Put> rows;
     const std::vector<ex> all = motion.rows();
     const auto tell = [&](const std::set<std::size_t>& spoken, const std::string& reason) {
@@ -194,10 +193,10 @@ void check_motion(const Scene& scene, Claims& read, const std::vector<std::size_
             tell(row.spoken, say("it could not be decided whether {} gives a multiplier", name));
             continue;
         }
-        const ZeroTest test = zero_test(row.left, motion.mechanism());
+        const CheckedClaim test = zero_test(row.left, motion.mechanism());
         for (const std::size_t i : row.spoken) {
             tests[i].push_back(test);
-            if (test.zero == false && claims[which[i]].reason.empty())
+            if (test.verdict == Verdict::refuted && claims[which[i]].reason.empty())
                 claims[which[i]].reason = say("put into {}, it leaves what does not vanish", name);
         }
     }
@@ -208,7 +207,7 @@ void check_motion(const Scene& scene, Claims& read, const std::vector<std::size_
             claim.reason = say("no equation of motion and no constraint holds this coordinate or multiplier");
             continue;
         }
-        settle_by(tests[i], claim);
+        claim = all_of(tests[i]);
         if (!reason.empty()) claim.reason = reason;
     }
 }
@@ -236,29 +235,37 @@ int strength(Verdict verdict) {
     return verdict == Verdict::proved ? 2 : verdict == Verdict::refuted ? 0 : 1;
 }
 
-}  // namespace
-
-void check_solution(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
-                    std::vector<CheckedClaim>& claims) {
+/// `which`: the positions of the claims at "solution", which together describe one motion; each has the name of a
+/// coordinate or a multiplier on its left side.
+std::vector<CheckedClaim> check_solutions(const Scene& scene, Claims& read,
+                                          const std::vector<std::size_t>& which) {
+    std::vector<CheckedClaim> claims(scene.claims.size());
     const std::vector<std::vector<std::size_t>> all = choices(scene, which);
-    if (all.empty()) {
-        for (const std::size_t k : which)
-            claims[k].reason =
-                say("coordinates have so many values at \"solution\" that their combinations are more "
-                    "than {}",
-                    most_choices);
-        return;
-    }
+    for (const std::size_t k : which)
+        if (all.empty())
+            claims[k] =
+                undecided(say("coordinates have so many values at \"solution\" that their combinations are more "
+                              "than {}",
+                              most_choices));
     std::set<std::size_t> judged;
     for (const std::vector<std::size_t>& choice : all) {
-        std::vector<CheckedClaim> found = claims;
-        for (const std::size_t k : choice) found[k] = {};
+        std::vector<CheckedClaim> found(claims.size());
         check_motion(scene, read, choice, found);
         // A claim is right if it is part of a motion, whatever stands beside it.
         for (const std::size_t k : choice)
             if (judged.insert(k).second || strength(found[k].verdict) > strength(claims[k].verdict))
                 claims[k] = std::move(found[k]);
     }
+    return claims;
+}
+
+}  // namespace
+
+std::optional<CheckedClaim> along_a_solution(Question& q) {
+    if (q.now.at != Claim::At::solution) return std::nullopt;
+    std::vector<CheckedClaim>& all = q.together.solutions;
+    if (all.empty()) all = check_solutions(q.now.scene, q.now.claims, q.together.claims);
+    return all[q.claim];
 }
 
 }  // namespace alembert

@@ -7,8 +7,14 @@
 
 namespace alembert {
 
-double chance_of_another_branch(const ExactState& state) {
-    return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
+void LeftToChance::add(double chance, const ExactState& state) {
+    failure += chance;
+    missed += state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
+    ++states;
+}
+
+double chance_at(const ExactState& state, double degree, const ModularValues& values) {
+    return std::log2(degree) + values.conditions + state.conditions - state.field;
 }
 
 int states_needed(const Program& p, const std::vector<int>& roots, const ExactStates& states) {
@@ -25,37 +31,31 @@ int states_needed(const Program& p, const std::vector<int>& roots, const ExactSt
 std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure) {
     const std::array<int, 1> roots{root};
     const int least = states_needed(p, {root}, states);
-    failure = 0;
-    double missed = 0;  // log₂ of the probability that no state was on some branch
-    int usable = 0;
     const bool rest = states.motions.where() == Motions::At::rest;
+    LeftToChance left;
+    failure = 0;
     for (std::size_t s = 0;; ++s) {
         const ExactState* const state = states.get(s);
         if (state == nullptr || s > most_states)
-            return usable >= std::min(least, states_of_roots) &&
-                           ((failure <= wanted_failure && missed <= wanted_failure) || rest)
+            return left.states >= std::min(least, states_of_roots) && (left.is_small() || rest)
                        ? std::optional(true)
                        : std::nullopt;
         const auto at = evaluate_mod(p, state->point, roots);
         if (!at) continue;
-        ++usable;
         if (!at->value[root].is_zero()) return false;
         const double degree = std::max(1.0, at->degree[root]) * std::max(1.0, state->degree);
-        const double chance = std::log2(degree) + at->conditions + state->conditions - state->field;
+        const double chance = chance_at(*state, degree, *at);
         if (chance > -1) return std::nullopt;
-        failure += chance;
-        missed += chance_of_another_branch(*state);
-        if (failure <= wanted_failure && missed <= wanted_failure && usable >= least &&
-            (!rest || usable >= states_of_rest))
-            return true;
+        left.add(chance, *state);
+        failure = left.failure;
+        if (left.is_small() && left.states >= least && (!rest || left.states >= states_of_rest)) return true;
     }
 }
 
 std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program& p, int root, double& failure) {
     constexpr std::size_t most_roots = 4;
     const std::array<int, 1> roots{root};
-    failure = 0;
-    double missed = 0;
+    LeftToChance left;
     for (std::size_t s = 0; s < most_states && states.get(s) != nullptr; ++s) {
         const ExactState& state = *states.get(s);
         const auto plain = evaluate_mod(p, state.point, roots);
@@ -73,11 +73,11 @@ std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program&
         }
         if (!is_zero) return false;
         const double degree = choices * std::max(1.0, plain->degree[root]) * std::max(1.0, state.degree);
-        const double chance = std::log2(degree) + plain->conditions + state.conditions - state.field;
+        const double chance = chance_at(state, degree, *plain);
         if (chance > -1) return std::nullopt;
-        failure += chance;
-        missed += chance_of_another_branch(state);
-        if (failure <= wanted_failure && missed <= wanted_failure) return true;
+        left.add(chance, state);
+        failure = left.failure;
+        if (left.is_small()) return true;
     }
     return std::nullopt;
 }

@@ -54,8 +54,17 @@ bool has_long_numbers(const Program& program, const std::vector<int>& roots);
 /// Is the node zero whatever values the variables have? What holds because a parameter is positive is no identity.
 bool is_identity(const Program& program, int root);
 
-/// log₂ of the probability that this state does not lie on a given branch of the constraints.
-double chance_of_another_branch(const ExactState& state);
+/// What states modulo the prime leave to chance, in log₂ of probabilities.
+struct LeftToChance {
+    double failure = 0;  ///< that what is zero at all of them is so by chance
+    double missed = 0;   ///< that no state was on some branch of the constraints
+    int states = 0;
+
+    void add(double chance, const ExactState& state);
+    bool is_small() const { return failure <= wanted_failure && missed <= wanted_failure; }
+};
+/// That values of this degree are zero at this state by chance.
+double chance_at(const ExactState& state, double degree, const ModularValues& values);
 
 /// When constraints depend on each other, does the node vanish for their least reactions, but not for other
 /// reactions with the same effect?

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/assumption.hpp"
+
 namespace alembert {
 
 /// The mistake that was probably made.
@@ -42,23 +44,6 @@ struct UpTo {
     enum class Kind { constant, derivative } kind = Kind::constant;
     std::string text{};  ///< the constant, or F; empty if it was not found in a short form
 };
-
-/// What a verdict rests on besides the equations of the scene.
-struct Assumption {
-    enum class Kind {
-        side,       ///< of a root: a length is positive
-        branch,     ///< of the constraints, or of a root with coordinates that depend on each other
-        parameter,  ///< the sign of what consists of parameters
-        pose,       ///< the one in which the scene's impulses act
-        closed,     ///< these contacts are
-        small,      ///< inputs, beside the deviations from a state
-        stated      ///< by the claim itself
-    };
-    Kind kind;
-    std::string text;          ///< "r > 0"
-    bool is_condition = true;  ///< whether it is an inequality
-};
-const char* name_of(Assumption::Kind kind);
 
 struct CheckedClaim {
     Verdict verdict = Verdict::undecided;

@@ -9,7 +9,6 @@
 #include "algebra/symbolic/fifty_digits.hpp"
 #include "algebra/symbolic/on_sides.hpp"
 #include "base/language/say.hpp"
-#include "check/verdict.hpp"
 #include "model/energy.hpp"
 
 namespace alembert {
@@ -86,9 +85,12 @@ std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
 
 }  // namespace
 
-ZeroTest zero_test(const ex& given, const Mechanism& m) {
+CheckedClaim zero_test(const ex& given, const Mechanism& m) {
     const ex e = in_independent_parameters(given, m).expand();
-    if (e.is_zero() || is_zero_on_all_sides(e, m)) return {.zero = true};
+    CheckedClaim zero;
+    zero.verdict = Verdict::proved;
+    zero.normal_form = true;
+    if (e.is_zero() || is_zero_on_all_sides(e, m)) return zero;
     GiNaC::exset found;
     gather(e, found);
     std::vector<GiNaC::symbol> symbols;
@@ -99,14 +101,15 @@ ZeroTest zero_test(const ex& given, const Mechanism& m) {
     const int tries = sides_of(e).empty() ? 6 : 60;
     for (int seed = 1; seed <= tries; ++seed) try {
             GiNaC::exmap at;
-            ZeroTest result{.zero = false};
+            CheckedClaim result;
+            result.verdict = Verdict::refuted;
             for (std::size_t k = 0; k < symbols.size(); ++k) {
                 const int number = seed * 7 + static_cast<int>(k) * 5;
                 numeric value = numeric(1 + number % 7, 1 + (number / 7 + static_cast<int>(k)) % 3) / 3;
                 const SymbolInfo& info = m.symbols->info(symbols[k]);
                 if (seed > 6 && info.kind != SymbolInfo::Kind::parameter) value = moved_away(value, seed, k, info);
                 at[symbols[k]] = value;
-                result.values.emplace_back(
+                result.counterexample.emplace_back(
                     info.text(), value.denom().is_equal(1)
                                      ? fmt::format("{}", value.numer().to_int())
                                      : fmt::format("{}/{}", value.numer().to_int(), value.denom().to_int()));
@@ -114,26 +117,25 @@ ZeroTest zero_test(const ex& given, const Mechanism& m) {
             const auto value = real_value(e.subs(at, GiNaC::subs_options::no_pattern));
             const auto size = size_of(e, at);
             if (!value || !size || GiNaC::abs(*value) <= numeric(nothing) * *size) continue;
-            result.value = value->to_double();
+            result.residual_value = value->to_double();
+            result.residual = fmt::format("{:.6g}", result.residual_value);
             return result;
         } catch (const std::exception&) {  // a pole, or a function that has no value there
             continue;
         }
-    return {};
+    CheckedClaim unknown;
+    unknown.reason =
+        say("what should vanish is zero to thirty digits wherever it was tried, and no proof was found");
+    return unknown;
 }
 
-void settle_by(const std::vector<ZeroTest>& tests, CheckedClaim& claim) {
-    const auto wrong = std::find_if(tests.begin(), tests.end(), [](const auto& t) { return t.zero == false; });
-    const bool all = std::all_of(tests.begin(), tests.end(), [](const auto& t) { return t.zero == true; });
-    claim.verdict = wrong != tests.end() ? Verdict::refuted : all ? Verdict::proved : Verdict::undecided;
-    claim.normal_form = claim.verdict == Verdict::proved;
-    if (claim.verdict == Verdict::undecided)
-        claim.reason =
-            say("what should vanish is zero to thirty digits wherever it was tried, and no proof was found");
-    if (wrong == tests.end()) return;
-    claim.counterexample = wrong->values;
-    claim.residual_value = wrong->value;
-    claim.residual = fmt::format("{:.6g}", wrong->value);
+CheckedClaim all_of(const std::vector<CheckedClaim>& tests) {
+    const CheckedClaim* result = &tests.front();
+    for (const CheckedClaim& test : tests) {
+        if (test.verdict == Verdict::refuted) return test;
+        if (test.verdict != Verdict::proved) result = &test;
+    }
+    return *result;
 }
 
 }  // namespace alembert

@@ -3,17 +3,15 @@
 
 /// Is an expression zero for all values of its symbols?
 ///
-///     const ZeroTest test = zero_test(l*theta0*(w^2 - g/l), mechanism);
-///     test.zero      // false, with values of the symbols at which it is not
+///     const CheckedClaim test = zero_test(l*theta0*(w^2 - g/l), mechanism);
+///     test.verdict      // refuted, with values of the symbols at which it is not
 ///
 /// The test is for expressions whose symbols are all independent: solutions in closed form and first
-/// approximations. Claims about the state are decided at exact states (vanishing.hpp).
+/// approximations. Claims about the state are decided at exact states (decide.hpp).
 
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "check/verdict.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {
@@ -21,19 +19,14 @@ namespace alembert {
 /// The largest number of nodes that an expression, written out, may have to be tested.
 constexpr double longest_tested = 30000;
 
-struct ZeroTest {
-    std::optional<bool> zero;  ///< true: proved by normal form; false: not zero at `values`; nothing: not decided
-    std::vector<std::pair<std::string, std::string>> values = {};  ///< name → value
-    double value = 0;                                              ///< of the expression at `values`
-};
+/// `e` must be written out, without intermediate symbols. It is proved by normal form. The values that are tried,
+/// also for the time, lie between 1/3 and 3 and have fifty digits.
+CheckedClaim zero_test(const GiNaC::ex& e, const Mechanism& mechanism);
+inline bool is_zero(const GiNaC::ex& e, const Mechanism& mechanism) {
+    return zero_test(e, mechanism).verdict == Verdict::proved;
+}
 
-/// `e` must be written out, without intermediate symbols. The values that are tried, also for the time, lie
-/// between 1/3 and 3 and have fifty digits.
-ZeroTest zero_test(const GiNaC::ex& e, const Mechanism& mechanism);
-
-/// Proves or refutes a claim, or leaves it undecided, from several such tests of parts of the claim. The first
-/// part that is not zero is shown.
-struct CheckedClaim;
-void settle_by(const std::vector<ZeroTest>& tests, CheckedClaim& claim);
+/// Several such parts of a claim that are to vanish together. The first that does not is shown.
+CheckedClaim all_of(const std::vector<CheckedClaim>& tests);
 
 }  // namespace alembert

@@ -289,11 +289,12 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots,
                 "one",
                 zeros, zeros == 1 ? "is" : "are",
                 proved ? "" : say(" (found by Newton's method in several directions)")),
-            proved ? std::vector<StabilityAssumption>()
-                   : std::vector{StabilityAssumption{
-                         StabilityAssumption::Kind::family,
+            proved ? std::vector<Assumption>()
+                   : std::vector{Assumption{
+                         Assumption::Kind::family,
                          say("the steady motions beside this one were found by Newton's method in several "
-                             "directions; that there are as many as these zeros is not proved")}}};
+                             "directions; that there are as many as these zeros is not proved"),
+                         false}}};
 }
 
 }  // namespace alembert

@@ -162,9 +162,10 @@ std::vector<RootOf> multipliers_in_order(const RealBallMatrix& Phi) {
 Decision decision_by_multipliers(const FloquetResult& found, const std::vector<RootOf>& roots, bool autonomous) {
     Decision decision = judged(found, roots, autonomous, false, false);
     if (decision.verdict != StabilityVerdict::undecided)
-        decision.assumed.push_back(
-            {StabilityAssumption::Kind::numbers, say("the motion and its multipliers through impacts, events and "
-                                                     "jumps of forces are in floating point")});
+        decision.assumed.push_back({Assumption::Kind::numbers,
+                                    say("the motion and its multipliers through impacts, events and jumps of "
+                                        "forces are in floating point"),
+                                    false});
     return decision;
 }
 

@@ -57,6 +57,7 @@ void judge_exactly(Equilibrium& one, const Scene& scene, const StabilityOptions&
     if (is.verdict == StabilityVerdict::undecided) return;
     one.judgement.stable = is.verdict == StabilityVerdict::unstable ? Stable::no : Stable::yes;
     one.judgement.because = is.reason;
+    one.judgement.assumed = is.assumed;
 } catch (const ModelError&) {  // the first judgement stands
 } catch (const IntegrationError&) {
 }

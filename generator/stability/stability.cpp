@@ -96,21 +96,7 @@ const char* name_of(StabilityTheorem theorem) {
     return "";
 }
 
-const char* name_of(StabilityAssumption::Kind kind) {
-    switch (kind) {
-        case StabilityAssumption::Kind::state:
-            return "state";
-        case StabilityAssumption::Kind::numbers:
-            return "numbers";
-        case StabilityAssumption::Kind::family:
-            return "family";
-    }
-    return "";
-}
-
 namespace {
-
-using Assumed = StabilityAssumption::Kind;
 
 void take(Stability& result, const Decision& decision) {
     result.verdict = decision.verdict;
@@ -122,8 +108,7 @@ void take(Stability& result, const Decision& decision) {
 /// The verdict was found in floating point.
 void tell_numbers(Decision& decision) {
     if (decision.verdict == StabilityVerdict::undecided) return;
-    decision.assumed.push_back(
-        {Assumed::numbers, say("the signs that decide were computed in floating point, without bounds")});
+    decision.assumed.push_back(signs_in_numbers());
 }
 
 Decision by_integrals(const IntegralProof& proof, bool conserved) {
@@ -433,10 +418,7 @@ void judge_near(Stability& result, const Local& local, const StabilityOptions& o
     }
     if (decision.verdict != StabilityVerdict::undecided &&
         (local.known == StateKnown::in_numbers || local.known == StateKnown::open))
-        decision.assumed.push_back(
-            {Assumed::state,
-             say("the state was found in numbers; that the mechanism can stay there, or move steadily, is not "
-                 "proved")});
+        decision.assumed.push_back(state_in_numbers());
     take(result, decision);
     if (result.certain) add_conditions(result, local, options.exact_at);
     if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, &local);

@@ -65,18 +65,6 @@ struct LyapunovAnswer {
     std::string set = {};                   ///< where dV/dt is zero, if it is semidefinite
 };
 
-/// What a verdict rests on besides the equations of the scene: numbers about which nothing was proved.
-struct StabilityAssumption {
-    enum class Kind {
-        state,    ///< that there is an equilibrium or a steady motion at the state
-        numbers,  ///< eigenvalues or energies in floating point
-        family,   ///< steady motions beside this one
-    };
-    Kind kind;
-    std::string text;
-};
-const char* name_of(StabilityAssumption::Kind kind);
-
 struct StabilityOptions {
     std::string by = {};  ///< a formalism; empty: the program chooses
     Overrides at = {};
@@ -98,10 +86,10 @@ struct Stability {
     std::vector<std::pair<std::string, double>> periodic_start = {};  ///< coordinates and speeds, by name
     std::vector<RootOf> eigenvalues = {};
     bool certain = false;  ///< discs contain the eigenvalues; else they are those of floating-point numbers
-    std::optional<StateKnown> state = {};           ///< of an equilibrium or a steady motion
-    std::vector<StabilityAssumption> assumed = {};  ///< nothing of a verdict that is proved
-    std::vector<std::string> conditions = {};       ///< "expr > 0", together necessary and sufficient
-    std::string conditions_for = {};                ///< what for
+    std::optional<StateKnown> state = {};      ///< of an equilibrium or a steady motion
+    std::vector<Assumption> assumed = {};      ///< nothing of a verdict that is proved
+    std::vector<std::string> conditions = {};  ///< "expr > 0", together necessary and sufficient
+    std::string conditions_for = {};           ///< what for
     /// Where the conditions are too long in the parameters: the coefficients of the characteristic polynomial that
     /// stand in them, "a1 = D/m".
     std::vector<std::string> coefficients = {};

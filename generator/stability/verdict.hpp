@@ -12,7 +12,7 @@ struct Decision {
     StabilityVerdict verdict = StabilityVerdict::undecided;
     StabilityTheorem theorem = StabilityTheorem::none;
     std::string reason;
-    std::vector<StabilityAssumption> assumed = {};
+    std::vector<Assumption> assumed = {};
 };
 
 /// The verdict for x' = A x itself, or for a polynomial (then `A` is null, and a multiple root on the axis is

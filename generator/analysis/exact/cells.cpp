@@ -21,6 +21,7 @@ Cells::Cells(Program& program, std::span<const int> roots) : program_(program) {
         if (op == Op::abs || op == Op::sign) add(args[0]);
         if (op == Op::min || op == Op::max) add(program.sum(0, {{1, args[0]}, {-1, args[1]}}));
     }
+    std::sort(sides_.begin(), sides_.end(), [&](int a, int b) { return program.before(a, b); });
 }
 
 void Cells::add(int node) {

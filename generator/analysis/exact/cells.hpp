@@ -33,7 +33,7 @@ public:
     Cells(Program& program, std::span<const int> roots);
 
     bool empty() const { return sides_.empty(); }
-    /// The nodes whose signs count.
+    /// The nodes whose signs count, in the same order in every run.
     const std::vector<int>& sides() const { return sides_; }
 
     /// The cell of a state at which the program has these values; nothing on a border.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "present/report/equilibria.hpp"
 
+#include <map>
+
 #include "base/language/say.hpp"
 #include "present/report/page.hpp"
 #include "present/report/shown_unit.hpp"
@@ -68,6 +70,9 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
     }
     result["stable"] = name_of(one.judgement.stable);
     result["because"] = one.judgement.because;
+    result["assumed"] = Json::array();
+    for (const Assumption& assumed : one.judgement.assumed)
+        result["assumed"].push_back({{"kind", name_of(assumed.kind)}, {"text", assumed.text}});
     result["eigenvalues"] = Json::array();
     for (const std::complex<double>& value : one.judgement.eigenvalues)
         result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
@@ -170,6 +175,10 @@ std::string as_text(const Equilibria& found) {
         say_on(page, "It is proved that there is one, and one only, within {:g} of the numbers of {}.\n",
                proved_radius, proved);
     if (!open.empty()) say_on(page, "It is not proved that there is one at the numbers of {}.\n", open);
+    std::map<std::string, std::vector<std::size_t>> assumed;  // of which
+    for (std::size_t k = 0; k < found.list.size(); ++k)
+        for (const Assumption& one : found.list[k].judgement.assumed) assumed[one.text].push_back(k + 1);
+    for (const auto& [text, of] : assumed) say_on(page, "Not proved of {}: {}\n", fmt::join(of, ", "), text);
     return page;
 }
 

@@ -60,7 +60,7 @@ Json as_json(const Stability& s) {
     result["certain"] = s.certain;
     if (s.state) result["state"] = name_of(*s.state);
     result["assumed"] = Json::array();
-    for (const StabilityAssumption& one : s.assumed)
+    for (const Assumption& one : s.assumed)
         result["assumed"].push_back({{"kind", name_of(one.kind)}, {"text", one.text}});
     if (s.lyapunov)
         result["lyapunov"] = {
@@ -92,7 +92,7 @@ std::string as_text(const Stability& s, bool with_modes) {
     if (s.near) page += words_of_reached(*s.near);
     say_on(page, "{}: {}.\n", translated(name_of(s.verdict)), s.reason);
     if (s.theorem != StabilityTheorem::none) say_on(page, "By: {}\n", translated(name_of(s.theorem)));
-    for (const StabilityAssumption& one : s.assumed) say_on(page, "Not proved: {}\n", one.text);
+    for (const Assumption& one : s.assumed) say_on(page, "Not proved: {}\n", one.text);
     if (!s.states.empty())
         say_on(page, "With respect to {}{}\n", fmt::join(s.states, ", "),
                s.near && !s.near->matrices.cyclic.empty()

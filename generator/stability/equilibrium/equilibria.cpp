@@ -291,6 +291,13 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     for (const FoundRoot& root : result.search.roots) add(root);
     if (result.search.rates == Rates::given && result.mechanism.unilateral.empty())
         solve_in_symbols(result, problem, start, add);
+    for (Equilibrium& one : result.list) {
+        std::vector<Assumption>& assumed = one.judgement.assumed;
+        if (one.judgement.stable == Stable::undecided)
+            assumed.clear();
+        else if (one.known == StateKnown::in_numbers)
+            assumed.push_back(state_in_numbers());
+    }
     if (!result.list.empty()) return;
     check_balance(result, problem);
     result.nothing = result.search.roots.empty()

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/language/say.hpp"
+#include "stability/interval/disc.hpp"
 #include "stability/linear/dense_long.hpp"
 #include "stability/linear/paths.hpp"
 
@@ -263,6 +264,7 @@ StabilityHint judge(const SteadyProblem& problem, EnergyRate energy, const Insta
         result.because =
             say("eigenvalues on the imaginary axis, about which the first approximation says nothing");
     }
+    if (result.stable != Stable::undecided) result.assumed.push_back(signs_in_numbers());
     return result;
 }
 

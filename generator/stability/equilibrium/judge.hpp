@@ -13,6 +13,7 @@
 
 #include <complex>
 
+#include "model/assumption.hpp"
 #include "stability/equilibrium/energy_rate.hpp"
 
 namespace alembert {
@@ -23,6 +24,7 @@ const char* name_of(Stable stable);
 struct StabilityHint {
     Stable stable = Stable::undecided;
     std::string because;
+    std::vector<Assumption> assumed = {};  ///< nothing of what is proved, and of what is undecided
     bool by_energy = false;
     bool meets = false;     ///< whether others meet it there, or nearly so, and nothing was decided therefore
     bool singular = false;  ///< whether some inertia vanishes here, as at a pole of spherical coordinates

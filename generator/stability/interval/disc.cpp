@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -119,6 +121,18 @@ const char* name_of(StateKnown known) {
             return "in numbers";
     }
     return "";
+}
+
+Assumption state_in_numbers() {
+    return {Assumption::Kind::state,
+            say("the state was found in numbers; that the mechanism can stay there, or move steadily, is not "
+                "proved"),
+            false};
+}
+
+Assumption signs_in_numbers() {
+    return {Assumption::Kind::numbers,
+            say("the signs that decide were computed in floating point, without bounds"), false};
 }
 
 StateKnown disc_around(const Residuals& residuals, const Split& split, const std::vector<int>& essential,

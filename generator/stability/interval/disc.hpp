@@ -11,6 +11,7 @@
 /// over a box X around the numbers m, with Y near the inverse of F'(m), lies within X only if X holds one solution
 /// and F' is regular in all of X (Moore, Kearfott and Cloud, Introduction to Interval Analysis (2009), chapter 8).
 
+#include "model/assumption.hpp"
 #include "stability/interval/point.hpp"
 #include "stability/linear/tangent.hpp"
 
@@ -25,6 +26,10 @@ enum class StateKnown {
 };
 /// "exact", "proved", "open", "in numbers".
 const char* name_of(StateKnown known);
+
+/// What a verdict rests on at a state that is known in numbers, and where signs were computed in them.
+Assumption state_in_numbers();
+Assumption signs_in_numbers();
 
 /// `essential`: positions in split.q; `silent`: positions in split.u along which no force acts in any state.
 /// `radius` is relative to numbers above 1.
