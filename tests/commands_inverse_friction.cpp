@@ -13,6 +13,7 @@ namespace commands_inverse_friction {
 
 using alembert::test::Json;
 using alembert::test::json_of;
+using alembert::test::run;
 using alembert::test::temporary;
 
 namespace {

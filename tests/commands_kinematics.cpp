@@ -7,6 +7,7 @@
 
 #include "files.hpp"
 #include "json.hpp"
+#include "shell.hpp"
 
 namespace commands_kinematics {
 
@@ -15,6 +16,7 @@ using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
+using alembert::test::temporary_folder;
 
 namespace {
 
@@ -289,8 +291,6 @@ TEST_CASE("kinematics: the Jacobian times the rates is the velocity, and J' q' w
 
 TEST_CASE("kinematics: under --strict a point that only an option names is used, and no other") {
     const std::string scene = temporary("tip.toml", R"toml(
-[coordinates]
-theta = { initial = 0.3, unit = "rad" }
 [[body]]
 name = "arm"
 mass = 1
@@ -301,7 +301,7 @@ parent = "N"
 child = "arm"
 type = "revolute"
 axis = "z"
-coordinate = "theta"
+coordinates = { theta = { initial = 0.3 } }
 [[point]]
 name = "tip"
 from = "arm"
