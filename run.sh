@@ -37,5 +37,5 @@ printf '\n%s\n\n' "Motion"
 code=0
 "$alembert" simulate "$scene" -o "$folder/$name.csv" || code=$?  # the page shows what went wrong
 printf '\n%s\n\n' "Page (open it in a browser)"
-"$alembert" report "$scene" -o "$folder/$name.html"
+"$alembert" report "$scene" -o "$folder/$name.html" || code=$?
 exit "$code"

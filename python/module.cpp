@@ -25,6 +25,7 @@
 #include "present/report/motion_plot.hpp"
 #include "present/report/run.hpp"
 #include "present/report/table_file.hpp"
+#include "scene/advice.hpp"
 #include "scene/typed_words.hpp"
 #include "simulate/dense_output.hpp"
 #include "simulate/emission.hpp"
@@ -120,6 +121,7 @@ std::pair<std::string, Warnings> json_of(const Motion& motion) {
 
 CompiledSystem compiled_system(std::string source) {
     const py::gil_scoped_release release;
+    const WorkCanEnd can_end;
     Module module = load(compile(source, "python", {}).object);
     return {std::move(module), std::move(source)};
 }
@@ -128,14 +130,16 @@ CompiledSystem compiled_system(std::string source) {
 /// tables of emitted code are identifiers of C++.
 using SystemNames = std::array<std::vector<std::string>, 4>;
 
+/// Functions, frames, and values in place of the scene's.
+using SystemLists = std::array<std::vector<std::string>, 3>;
+
 std::tuple<CompiledSystem, Warnings, SystemNames> system_of(const std::string& text, const std::string& file,
                                                             const std::string& by, bool jacobian,
-                                                            const std::vector<std::string>& functions,
-                                                            const std::vector<std::string>& frames) {
+                                                            const SystemLists& lists) {
     auto [source, warnings, names] = in_turn([&] {
         Emission emitted =
-            emission(parse_scene(text, file),
-                     {.by = by, .jacobian = jacobian, .batch = true, .functions = functions, .frames = frames});
+            emission(with_given(parse_scene(text, file), {.at = lists[2]}),
+                     {.by = by, .jacobian = jacobian, .batch = true, .functions = lists[0], .frames = lists[1]});
         const Program& program = emitted.choice.program;
         SystemNames of_scene;
         for (std::size_t k = 0; const auto* list : {&program.coordinates, &program.speeds, &program.parameters}) {
@@ -347,6 +351,7 @@ void add_answers(py::module_& module) {
         write_in_words(text, places, KnownNames());
         return text;
     });
+    module.def("advice_on_function", [](const std::string& name) { return advice_on_function(name); });
     module.def("need_form", [](const std::string& path, const std::string& form) {
         need_form(path, form == "picture" ? FileForm::picture : form == "unit" ? FileForm::unit : FileForm::page);
     });

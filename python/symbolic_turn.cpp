@@ -95,6 +95,14 @@ void give_back() {
 
 }  // namespace
 
+WorkCanEnd::WorkCanEnd() : before_(on_long_work) {
+    on_long_work = [] { look_for_interrupt({}, 0); };
+}
+
+WorkCanEnd::~WorkCanEnd() {
+    on_long_work = before_;
+}
+
 SymbolicTurn::SymbolicTurn() : is_outer_(!has_turn) {
     if (!is_outer_) return;
     take();
@@ -126,7 +134,10 @@ py::object listen(const py::object& next) {
 }
 
 void look_for_interrupt(std::string_view what, double part) {
-    thread_local Clock::time_point last = Clock::now();
+    // What tells of its progress and what only asks whether it is wanted have a time each, so that neither is kept
+    // from the interpreter by the other.
+    thread_local Clock::time_point last_question = Clock::now(), last_progress = last_question;
+    Clock::time_point& last = what.empty() ? last_question : last_progress;
     if (Clock::now() - last < moment) return;
     last = Clock::now();
     const py::gil_scoped_acquire lock;

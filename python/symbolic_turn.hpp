@@ -33,6 +33,18 @@ private:
     bool is_outer_;
 };
 
+/// While it exists, Ctrl-C ends the thread's work outside of a turn, such as a compiler's.
+class WorkCanEnd {
+public:
+    WorkCanEnd();
+    ~WorkCanEnd();
+    WorkCanEnd(const WorkCanEnd&) = delete;
+    WorkCanEnd& operator=(const WorkCanEnd&) = delete;
+
+private:
+    void (*before_)();
+};
+
 template <typename Function>
 decltype(auto) in_turn(Function function) {
     const SymbolicTurn turn;

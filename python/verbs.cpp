@@ -218,7 +218,8 @@ Answer do_linearize(Scene scene, const Asked& asked) {
     if (asked.flag("along"))
         options.along = AlongOptions{.duration = asked.real("duration"),
                                      .tolerance = asked.real("tolerance"),
-                                     .sample = asked.real("sample")};
+                                     .sample = asked.real("sample"),
+                                     .progress = asked.progress};
     return shown(linearize(std::move(scene), options));
 }
 
@@ -292,7 +293,8 @@ Answer do_identify(Scene scene, const Asked& asked) {
 Answer do_fmu(Scene scene, const Asked& asked) {
     const std::string path = asked.text("path");
     const FunctionalUnit unit =
-        functional_unit(asked.given(std::move(scene)), {.by = asked.by(), .version = asked.whole("fmi", 2)});
+        functional_unit(asked.given(std::move(scene)),
+                        {.by = asked.by(), .version = asked.whole("fmi", 2), .at = asked.typed_at()});
     return {.json = as_json(unit, path),
             .text = as_text(unit, path),
             .warnings = unit.warnings,
@@ -399,7 +401,9 @@ Answer do_report(Scene scene, const Asked& asked) {
                             .section = asked.text("poincare"),
                             .measures = asked.flag("bench")};
     options.wishes.budget = static_cast<long>(asked.number("budget", 3'000'000));
-    const Overview all = overview(asked.given(std::move(scene)), options);
+    Overview all = overview(asked.given(std::move(scene)), options);
+    if (all.motion.value && all.motion.value->run.failure)
+        all.warnings.push_back(say("the motion broke off: {}\n", *all.motion.value->run.failure));
     return {.json = Json::object(),
             .warnings = all.warnings,
             .files = {{"html", as_html(all, {.version = ALEMBERT_VERSION, .by = asked.by()})}}};

@@ -13,6 +13,7 @@ namespace commands_inverse_friction {
 
 using alembert::test::Json;
 using alembert::test::json_of;
+using alembert::test::run;
 using alembert::test::temporary;
 
 namespace {
@@ -135,6 +136,10 @@ gap = "x"
     CHECK(load(loads(stop, {"x''=2"}), "x") == 6);
     CHECK(load(loads(stop, {"x''=0", "x=1"}), "x") == 0);
     CHECK(load(loads(stop, {"x''=0", "x'=1"}), "x") == 0);
+    CHECK(load(loads(stop, {"x''=-1", "x=1"}), "x") == -3);
+    const auto into = run({"inverse", stop, "--at", "x''=-1"});
+    CHECK(into.exit == 3);
+    CHECK_MESSAGE(into.err.find("go into contact 'stop'") != std::string::npos, into.err);
 }
 
 }  // namespace commands_inverse_friction

@@ -7,6 +7,7 @@
 
 #include "files.hpp"
 #include "json.hpp"
+#include "shell.hpp"
 
 namespace commands_kinematics {
 
@@ -15,6 +16,7 @@ using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
+using alembert::test::temporary_folder;
 
 namespace {
 
@@ -285,6 +287,47 @@ TEST_CASE("kinematics: the Jacobian times the rates is the velocity, and J' q' w
         CHECK(std::abs(a - (i < 3 ? linear["acceleration"][i] : turning["alpha"][i - 3]).get<double>()) < 1e-9);
     }
     CHECK(k["mass_centre"]["jacobian"].size() == 3);
+}
+
+TEST_CASE("kinematics: under --strict a point that only an option names is used, and no other") {
+    const std::string scene = temporary("tip.toml", R"toml(
+[[body]]
+name = "arm"
+mass = 1
+inertia = [1, 1, 1]
+[[joint]]
+name = "j"
+parent = "N"
+child = "arm"
+type = "revolute"
+axis = "z"
+coordinates = { theta = { initial = 0.3 } }
+[[point]]
+name = "tip"
+from = "arm"
+offset = [1, 0, 0]
+axes = "arm"
+)toml"),
+                      folder = temporary_folder("tip");
+    using Words = std::vector<std::string>;
+    const auto exit_of = [&](Words words) {
+        words.emplace_back("--strict");
+        const auto result = run(words);
+        CAPTURE(result.err);
+        CHECK((result.exit == 3) == (result.err.find("point 'tip' is not used") != std::string::npos));
+        return result.exit;
+    };
+    for (const Words& uses :
+         {Words{"emit", scene, "-o", folder, "--frame", "tip"},
+          Words{"emit", scene, "-o", folder, "--wrench", "tip"},
+          Words{"emit", scene, "-o", folder, "--frame", "tip@arm"}, Words{"eval", scene, "--kinematics"},
+          Words{"eval", scene, "--kinematics", "--of", "arm,tip"},
+          Words{"eval", scene, "--inertia", "--about", "tip"}})
+        CHECK(exit_of(uses) == 0);
+    for (const Words& does_not :
+         {Words{"emit", scene, "-o", folder}, Words{"eval", scene, "--kinematics", "--of", "arm"},
+          Words{"eval", scene, "--inertia"}, Words{"emit", scene, "-o", folder, "--frame", "arm"}})
+        CHECK(exit_of(does_not) == 3);
 }
 
 }  // namespace commands_kinematics

@@ -423,4 +423,24 @@ TEST_CASE("page: a force that acts later is drawn pale until then") {
     CHECK(pushed("", "3").find(pale) == std::string::npos);
 }
 
+TEST_CASE("report: where the motion breaks off the page has what there is, and the exit code is that of the run") {
+    const std::string scene = temporary("cliff.toml", R"toml([coordinates]
+x = 1
+[energy]
+kinetic = "x'^2/2"
+potential = "-x^4"
+)toml"),
+                      file = temporary("cliff.html", "");
+    const auto broken = run({"report", scene, "-o", file, "--duration", "100"});
+    CHECK(broken.exit == 4);
+    CHECK(broken.err.find("step size underflow at t = 0.927") != std::string::npos);
+    CHECK(contents(file).find("step size underflow at t = 0.927") != std::string::npos);
+    CHECK(run({"report", scene, "-o", file, "--duration", "0.5"}).exit == 0);
+    const auto run_of = run({"simulate", scene, "--duration", "100"});
+    CHECK(run_of.exit == 4);
+    const std::size_t last = run_of.out.rfind("the motion broke off: step size underflow at t = 0.927");
+    REQUIRE(last != std::string::npos);
+    CHECK(run_of.out.find('\n', last) == run_of.out.size() - 1);
+}
+
 }  // namespace commands_page

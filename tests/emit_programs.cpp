@@ -315,6 +315,11 @@ int main(void) {
     const std::vector<double> expected = rates_of(with_all_functions());
     test::check_near(folder.numbers(build + " && ./program"), expected, 1e-14);
     test::check_near(folder.numbers(build + " -DALEMBERT_REAL=float && ./program"), expected, 2e-6);
+    for (const char* const real : {"float", "double"})
+        for (const std::string& compiler : compilers())
+            CHECK(folder.told(fmt::format("{} -x c -std=c99 {} -Wdouble-promotion -DALEMBERT_REAL={} -c all.c -o "
+                                          "all.o",
+                                          compiler, strict, real)) == "");
     // No function of doubles is called, and no number is made a double.
     CHECK(folder.told(
               "cc -std=c99 -O1 -DALEMBERT_REAL=float -c all.c -o all.o && nm -u all.o | "
@@ -344,6 +349,38 @@ TEST_CASE(
     CHECK_THROWS_AS(emission(parse_scene(body, "x.toml"), {.name = "two words"}), ModelError);
 }
 
+TEST_CASE("emitted C: each file has its licence and the command that makes it in its head") {
+    for (const CodeLanguage language : {CodeLanguage::c, CodeLanguage::cpp}) {
+        const bool is_c = language == CodeLanguage::c;
+        const Emission e =
+            emission(textbook("double_pendulum"), {.language = language, .standalone = true, .casadi = is_c});
+        const std::string command = fmt::format("alembert emit double_pendulum.toml -o .{} --standalone{}\n",
+                                                is_c ? " --language c" : "", is_c ? " --casadi" : "");
+        const std::vector<SourceFile> files = files_of(e);
+        CHECK(files.size() == (is_c ? 4 : 3));
+        for (const SourceFile& file : files) {
+            CAPTURE(file.name);
+            const std::string head = file.text.substr(0, 600);
+            CHECK(head.find("SPDX-License-Identifier: MIT\n") <= 6);
+            CHECK(head.find("  " + command) != std::string::npos);
+        }
+    }
+}
+
+// Its header would stand before the compiler's own where its folder is given with -I.
+TEST_CASE("emitted C: a scene that is called as a header of C has files of another name") {
+    const std::string body = "[coordinates]\nx = 1\n[[particle]]\nname = \"p\"\nmass = 2\nposition = [\"x\", 0]\n";
+    for (const std::string name : {"math", "stdio", "string", "float"}) {
+        CAPTURE(name);
+        const test::Folder folder;
+        folder.emit(parse_scene(body, name + ".toml"), {.language = CodeLanguage::c, .standalone = true});
+        CHECK(folder.told(fmt::format("cc -std=c99 -Wall -Werror -I. {0}_scene_main.c {0}_scene.c -lm -o program "
+                                      "&& ./program 1 1e-9 1 | tail -n 1",
+                                      name)) == "1,1,0\n");
+    }
+    CHECK(emission(parse_scene(body, "math.toml")).source.file == "math.cpp");
+}
+
 TEST_CASE(
     "emitted C++: the header has parameters in SI units, whatever the scene gives them in, and says in what") {
     const Emission e = emission(with_all_functions());
@@ -355,6 +392,10 @@ TEST_CASE(
     // With quaternions another matrix is solved than M of T, and both are called what they are.
     const std::string quaternion = emission(textbook("free_body_quaternion"), {.by = "routh"}).source.text;
     CHECK(quaternion.find("M + c A^T A row by row") != std::string::npos);
+    CHECK(quaternion.find("/// M + c A^T A (row-major) and f + c A^T gamma, with a c for the norm of each "
+                          "quaternion.") != std::string::npos);
+    const Emission in_c = emission(textbook("free_body_quaternion"), {.by = "routh", .language = CodeLanguage::c});
+    CHECK(in_c.source.header->text.find("/* M + c A^T A (row-major) and f + c A^T gamma") != std::string::npos);
     CHECK(emission(textbook("sled")).source.text.find("c A^T A") == std::string::npos);
     // Rows and multipliers have their names; the row that follows from the others stands last.
     const std::string cart = emission(parse_scene(R"toml(

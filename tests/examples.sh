@@ -47,10 +47,11 @@ loops "$work/project"
 # The same program with the sources of the runtime in its own project, and with the runtime that is built and installed without
 # the generator. Both are built without optimization, which takes half the time.
 mkdir "$work/within"
+cp -r "$root/lib" "$work/within/alembert" # a copy of this folder alone
 cat >"$work/within/CMakeLists.txt" <<END
 cmake_minimum_required(VERSION 3.25)
 project(within LANGUAGES CXX)
-add_subdirectory($root/lib alembert)
+add_subdirectory(alembert)
 find_package(Threads REQUIRED)
 add_executable(crane_loop $root/examples/project/loop.cpp $work/project/crane.cpp $work/project/pendulum.cpp)
 target_include_directories(crane_loop PRIVATE $work/project)

@@ -279,6 +279,12 @@ TEST_CASE(
     for (const int version : {2, 3}) {
         const Unit unit = exported(scene, version);
         check_rules(unit.files.at("modelDescription.xml"), version);
+        for (const char* const source : {"sources/bouncing_ball.c", "sources/bouncing_ball_fmu.c"}) {
+            const std::string head = unit.files.at(source).substr(0, 500);
+            CHECK(head.find("SPDX-License-Identifier: MIT\n") <= 6);
+            CHECK(head.find(std::string("alembert emit bouncing_ball.toml --fmu bouncing_ball.fmu") +
+                            (version == 3 ? " --fmi 3\n" : "\n")) != std::string::npos);
+        }
         CHECK(unit.files.at("modelDescription.xml").find("rovidesDirectionalDerivative=\"true\"") ==
               std::string::npos);
         Instance one(unit, true, 1e-9);

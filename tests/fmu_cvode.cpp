@@ -300,6 +300,30 @@ TEST_CASE("fmu: a ball on a contact bounces, comes to rest and lies under any st
     }
 }
 
+// An importer does not tell the unit how large its errors are.
+TEST_CASE("fmu: a contact comes to rest where its hops are as small as the errors of the importer") {
+    for (const std::string gap : {"y", "y + 0.3*x", "y - 0.1*sin(5*t)"}) {
+        CAPTURE(gap);
+        const std::string scene =
+            temporary("rest.toml",
+                      "gravity = [0, -9.81]\n[coordinates]\nx = { initial = 0, rate = 0.3 }\ny = 1\n[[particle]]\n"
+                      "name = \"p\"\nmass = 1\nposition = [\"x\", \"y\"]\n[[unilateral]]\nname = \"floor\"\n"
+                      "restitution = 0.5\ngap = \"" +
+                          gap + "\"\n");
+        const Json wanted = simulated(scene, 4);
+        for (const int version : {2, 3}) {
+            const Unit unit = exported(scene, version);
+            for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
+                CAPTURE(tolerance);
+                Instance one(unit, false);
+                one.begin();
+                CHECK(follow(one, 4, 0.05, tolerance).roots < 30);
+                CHECK(difference(one, wanted) < 300 * tolerance);
+            }
+        }
+    }
+}
+
 // A hop as small as the errors of the importer: behind the floor, although it moves up from it.
 TEST_CASE("fmu: impulses that follow each other without end are an error, and no way through a floor") {
     for (const int version : {2, 3}) {

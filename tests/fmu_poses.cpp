@@ -34,15 +34,16 @@ std::string cranks(int count, double mass, double rate, const std::string& more 
 }
 
 /// The last row that the main program beside the emitted file prints.
-std::vector<double> end_of_program(const std::string& scene, const std::string& language, double duration) {
+std::vector<double> end_of_program(const std::string& scene, const std::string& language, double duration,
+                                   double tolerance = 1e-12, int rows = 3) {
     const std::string folder = temporary_folder("standalone-" + language);
     REQUIRE(run({"emit", scene, "-o", folder, "--language", language, "--standalone"}).exit == 0);
     const std::string name = std::filesystem::path(scene).stem().string();
     const std::string compiled =
         language == "c" ? fmt::format("cc -std=c99 -pedantic -Wall -Wextra -Werror -O1 {0}_main.c {0}.c -lm", name)
                         : fmt::format("c++ -std=c++20 -O1 {}_main.cpp", name);
-    const auto result =
-        run_shell(fmt::format("cd {} && {} -o run && ./run {} 1e-12 3 | tail -n 1", folder, compiled, duration));
+    const auto result = run_shell(fmt::format("cd {} && {} -o run && ./run {} {} {} > rows && tail -n 1 rows",
+                                              folder, compiled, duration, tolerance, rows));
     REQUIRE_MESSAGE(result.exit == 0, result.err);
     std::vector<double> row;
     std::istringstream line(result.out);
@@ -139,6 +140,37 @@ TEST_CASE("emit: the main program beside a file passes over no pulse in time, an
             REQUIRE(row.size() == 3);
             CHECK(std::abs(row[2] - pulse.rate) < 1e-7);
             CHECK(std::abs(row[1] - pulse.rate * (10 - 5.2345)) < 1e-3);
+        }
+    }
+}
+
+// x = 5^(p+2)/(p+1)/(p+2) and v = 5^(p+1)/(p+1) at t = 10. The first step behind t = 5 is never a small one: the
+// force is the same in all sizes.
+TEST_CASE("emit: a force that begins like a power of time loses no energy, in units and in the main program") {
+    for (const double power : {1.0, 2.5, 3.0, 4.0, 7.0}) {
+        CAPTURE(power);
+        const std::string scene = temporary(
+            "power.toml",
+            fmt::format("[inputs]\nF = \"max(0, t - 5)^{}\"\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\n"
+                        "mass = 1\nposition = [\"x\", 0]\n[forces]\nx = \"F\"\n",
+                        power));
+        const double v = std::pow(5, power + 1) / (power + 1), x = 5 * v / (power + 2);
+        const Unit unit = exported(scene, 2);
+        for (const double tolerance : {1e-6, 1e-8, 1e-10})
+            for (const int steps : {1, 10, 100}) {
+                CAPTURE(tolerance);
+                CAPTURE(steps);
+                Instance one(unit, true, tolerance);
+                one.begin();
+                for (int k = 0; k < steps; ++k) REQUIRE(one.step(10.0 * k / steps, 10.0 / steps));
+                CHECK(one.get("x") == doctest::Approx(x).epsilon(100 * tolerance));
+                CHECK(one.get("der(x)") == doctest::Approx(v).epsilon(100 * tolerance));
+            }
+        for (const int rows : {1, 100}) {
+            const std::vector<double> row = end_of_program(scene, "c", 10, 1e-9, rows);
+            REQUIRE(row.size() == 3);
+            CHECK(row[1] == doctest::Approx(x).epsilon(1e-6));
+            CHECK(row[2] == doctest::Approx(v).epsilon(1e-6));
         }
     }
 }

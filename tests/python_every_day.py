@@ -118,6 +118,48 @@ class EveryDay(unittest.TestCase):
             scene.sweep({"l": lengths}, duration=20, threads=1)
         self.assertEqual(len(scene.sweep({"l": [1, 2]}, duration=1)["final_theta"]), 2)
 
+    def test_progress_is_told_of_long_runs_sensitivities_and_matrices(self):
+        scene = alembert.Scene(scene_file("textbook/double_pendulum.toml"))
+        for call in (lambda: scene.simulate(100000, budget=10**9, sample=100, estimate=False),
+                     lambda: scene.simulate(2000, budget=10**9, sample=100, estimate=False, sensitivity=["l1"]),
+                     lambda: scene.linearize(along=True, duration=200, sample=0.05)):
+            told = []
+            with alembert.progress(lambda what, part: told.append(part)):
+                call()
+            self.assertGreater(len(told), 1)
+            self.assertTrue(all(0 <= part <= 1 for part in told))
+
+    def test_one_name_may_be_a_text(self):
+        scene = alembert.Scene(scene_file("textbook/crane.toml"))
+        self.assertEqual(scene.inertia("load").json["of"], scene.inertia(["load"]).json["of"])
+        self.assertEqual(repr(scene.kinematics("load")), repr(scene.kinematics(["load"])))
+        self.assertEqual(repr(scene.kinematics("load,trolley")), repr(scene.kinematics(["load", "trolley"])))
+        self.assertEqual(list(scene.robot("mass", "load").functions), list(scene.robot(["mass"], ["load"]).functions))
+        self.assertEqual(scene.emit(functions="com", frames="load").sources.keys(), scene.emit(functions=["com"]).sources.keys())
+        l = next(iter(scene.system().parameters))
+        self.assertEqual(scene.simulate(0.1, sensitivity=l).sensitivity, scene.simulate(0.1, sensitivity=[l]).sensitivity)
+
+    def test_a_run_that_breaks_off_says_so_where_it_is_printed(self):
+        scene = alembert.Scene(text="[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-x^4\"\n")
+        with warnings.catch_warnings(record=True) as said, tempfile.TemporaryDirectory() as folder:
+            warnings.simplefilter("always")
+            run = scene.simulate(100)
+            self.assertIn("the motion broke off: ", repr(run).splitlines()[-1])
+            self.assertIn("0.927", repr(run).splitlines()[-1])
+            del said[:]
+            scene.report(os.path.join(folder, "page.html"), duration=100)
+            self.assertTrue(any("the motion broke off: " in str(one.message) for one in said))
+            with self.assertRaisesRegex(alembert.ModelError, "ends in .csv, .npz, .h5"):
+                run.save(os.path.join(folder, "out.xyz"))
+            run.save(os.path.join(folder, "out.csv"))
+
+    def test_systems_and_initial_states_take_values(self):
+        scene = alembert.Scene(PENDULUM)
+        self.assertEqual(scene.system(at={"l": 3}).parameters["l"], 3)
+        self.assertEqual(scene.robot("mass", at={"l": 3}).parameters["l"], 3)
+        np.testing.assert_array_equal(scene.initial_state({"theta": 0.25, "theta'": 2}), [0.25, 2])
+        np.testing.assert_allclose(scene.system(at={"l": 3}).rhs(0.0, [0.5, 0.0])[1] * 2, scene.system().rhs(0.0, [0.5, 0.0])[1])
+
     def test_values_and_inputs_are_given_for_one_call(self):
         text = ("[parameters]\nm = 2\n[inputs]\nu = { value = 1, given = \"outside\" }\n[coordinates]\nx = 0\n[[particle]]\n"
                 "name = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n[forces]\nx = \"u\"\n[simulation]\nduration = 2\n")
@@ -201,6 +243,28 @@ class EveryDay(unittest.TestCase):
                     self.assertIn("KeyboardInterrupt", told, verb)
                 else:
                     child.communicate()
+
+    def test_ctrl_c_ends_a_compiler_and_branches(self):
+        """The compiler would go on for ten seconds, and the branches for minutes."""
+        chain = {"gravity": [0, "-g"], "parameters": {"g": 9.81}, "coordinates": {}, "particle": []}
+        for k in range(14):
+            chain["parameters"][f"l{k}"] = 1.0
+            chain["coordinates"][f"q{k}"] = 0.1
+            chain["particle"].append({"name": f"p{k}", "mass": 1, "position": [f"l{k}*sin(q{k})", f"-l{k}*cos(q{k})"],
+                                      **({"from": f"p{k - 1}"} if k else {})})
+        heard = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
+        for verb, wait in (("system()", 3), ("branches(('l0', 0.1, 20))", 3)):
+            code = f"import alembert\nscene = alembert.Scene({chain!r})\nprint('go', flush=True)\nscene.{verb}\n"
+            with tempfile.TemporaryDirectory() as folder, subprocess.Popen(
+                    [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder,
+                    env={**os.environ, "XDG_CACHE_HOME": folder}, preexec_fn=heard) as child:
+                child.stdout.readline()
+                time.sleep(wait)
+                self.assertIsNone(child.poll(), verb)
+                began = time.monotonic()
+                child.send_signal(signal.SIGINT)
+                self.assertIn("KeyboardInterrupt", child.communicate(timeout=60)[1], verb)
+                self.assertLess(time.monotonic() - began, 2, verb)
 
     def test_sensitivities_at_all_rows_are_those_of_their_ends(self):
         scene = alembert.Scene(PENDULUM)

@@ -359,6 +359,10 @@ class Expressions(unittest.TestCase):
         for value in none:
             with self.assertRaises(ValueError, msg=str(value)):
                 alembert.from_sympy(value)
+        self.assertEqual(str(alembert.to_sympy("V + W", functions="V")), "W + V(t)")
+        for text in ("asinh(x)", "log10(x)", "artanh(x) = 1", "cot(x)", "floor(x)"):
+            with self.assertRaisesRegex(ValueError, "the scene language has no function '.*; "):
+                alembert.to_sympy(text)
         with self.assertRaisesRegex(ValueError, "x > 1: an inequality cannot be written as an equation"):
             alembert.from_sympy(x > 1)
         self.assertEqual(alembert.from_sympy(sympy.Eq(x, x, evaluate=False)), "x = x")

@@ -18,8 +18,8 @@ struct FmuVerb : SceneOptions {
 
 int run(const FmuVerb& options) {
     check_output(options.file, FileForm::unit, {options.scene});
-    const FunctionalUnit unit =
-        functional_unit(scene_of(options), {.by = options.by, .version = options.version == "3" ? 3 : 2});
+    const FunctionalUnit unit = functional_unit(
+        scene_of(options), {.by = options.by, .version = options.version == "3" ? 3 : 2, .at = options.given.at});
     warn(unit.warnings);
     write_file(options.file, unit.archive, {options.scene});
     if (options.json)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/language/say.hpp"
 #include "commands/output.hpp"
+#include "commands/progress.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
 #include "present/report/linearization.hpp"
@@ -22,8 +23,12 @@ int run(const LinearizeVerb& verb) {
     LinearizeOptions options{
         .by = verb.by, .at = overrides_of(verb.at, scene), .exact_at = exact_overrides_of(verb.at, scene)};
     if (verb.affine) options.about = About::any;
+    Progress progress;
     if (verb.along) options.along = verb.motion;
+    if (verb.along)
+        options.along->progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     const LinearizedScene near = linearize(std::move(scene), options);
+    progress.wipe();
     warn(near.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(near), {verb.scene});
     if (verb.json)

@@ -71,6 +71,10 @@ int run(const ReportVerb& given) {
     else
         show(say("wrote {}\n", verb.output));
     if (verb.opens && !verb.json) open_page(verb.output);
+    if (all->motion.value && all->motion.value->run.failure) {
+        const Run& broken = all->motion.value->run;
+        throw IntegrationError(*broken.failure, broken.motion.failure->time, broken.motion.failure->state);
+    }
     return 0;
 }
 

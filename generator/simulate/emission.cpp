@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 
@@ -22,7 +21,9 @@
 #include "program/lower/regressor.hpp"
 #include "program/lower/robot_functions.hpp"
 #include "scene/text.hpp"
+#include "scene/used_places.hpp"
 #include "simulate/corners.hpp"
+#include "simulate/emit_command.hpp"
 #include "simulate/mass_watch.hpp"
 #include "simulate/narrow_places.hpp"
 #include "simulate/wrenches.hpp"
@@ -46,7 +47,7 @@ std::vector<double> state_in(const Start& start, const Emission& e) {
 }
 
 /// The main program supports equations and constraints only.
-SourceFile main_program(const Emission& e, const Program& program, CodeLanguage language, int event_places) {
+SourceFile main_program(const Emission& e, const Program& program, const EmitOptions& options, int event_places) {
     const Mechanism& m = e.mechanism;
     if (m.has_modes())
         throw ModelError(
@@ -69,7 +70,7 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
          .quick_times = sudden_times(quick_times(program, start.parameters, start.t, start.t + start.duration)),
          .stops = stops,
          .event_places = event_places},
-        language);
+        options);
 }
 
 /// For a main program that ends at events: the function of where these may be zero for a short time. Gives the
@@ -145,44 +146,35 @@ void add_example(EmitOptions& options, Emission& e) {
     }
 }
 
-/// A word of a command as a shell takes it.
-std::string shell_word(const std::string& word) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./,@:+=-";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word)
-        if (c == '\'')
-            quoted += "'\"'\"'";  // comments have no backslashes
-        else
-            quoted += c;
-    return quoted + "'";
+std::string command_of(const Scene& scene, const EmissionOptions& options) {
+    EmitCommand command(scene.file);
+    command.add("-o", ".");
+    command.add("--language", options.language == CodeLanguage::c            ? "c"
+                              : options.language == CodeLanguage::javascript ? "js"
+                                                                             : "");
+    command.add("--name", options.name);
+    command.flag("--standalone", options.standalone);
+    command.flag("--casadi", options.casadi);
+    command.flag("--fold", options.fold);
+    command.flag("--jacobian", options.jacobian);
+    command.add("--functions", fmt::format("{}", fmt::join(options.functions, ",")));
+    for (const std::string& frame : options.frames) command.add("--frame", frame);
+    for (const std::string& wrench : options.wrenches) command.add("--wrench", wrench);
+    command.flag("--batch", options.batch);
+    for (const std::string& value : options.at) command.add("--at", value);
+    command.add("--by", options.by);
+    return command.text;
 }
 
-/// The command that makes the files, without folders, so that the same scene gives the same bytes wherever it
-/// stands.
-std::string command_of(const Scene& scene, const EmissionOptions& options) {
-    const std::string file = std::filesystem::path(scene.file).filename().string();
-    std::string command = "alembert emit " + shell_word(file.starts_with('-') ? "./" + file : file);
-    const auto add = [&](const char* name, const std::string& value) {
-        if (!value.empty()) command += fmt::format(" {} {}", name, shell_word(value));
-    };
-    const auto flag = [&](const char* name, bool is_given) { command += is_given ? std::string(" ") + name : ""; };
-    add("-o", ".");
-    add("--language", options.language == CodeLanguage::c            ? "c"
-                      : options.language == CodeLanguage::javascript ? "js"
-                                                                     : "");
-    add("--name", options.name);
-    flag("--standalone", options.standalone);
-    flag("--casadi", options.casadi);
-    flag("--fold", options.fold);
-    flag("--jacobian", options.jacobian);
-    add("--functions", fmt::format("{}", fmt::join(options.functions, ",")));
-    for (const std::string& frame : options.frames) add("--frame", frame);
-    for (const std::string& wrench : options.wrenches) add("--wrench", wrench);
-    flag("--batch", options.batch);
-    for (const std::string& value : options.at) add("--at", value);
-    add("--by", options.by);
-    return command;
+/// A scene's header would stand before these of the compiler, which its own files include or whose headers do,
+/// where its folder is given to the compiler.
+bool is_header_of_c(const std::string& name) {
+    static const std::set<std::string> headers{
+        "alloca",   "assert",  "complex",   "ctype",   "endian", "errno",  "features", "fenv",   "float",
+        "inttypes", "iso646",  "limits",    "locale",  "malloc", "math",   "memory",   "setjmp", "signal",
+        "stdalign", "stdarg",  "stdatomic", "stdbool", "stddef", "stdint", "stdio",    "stdlib", "stdnoreturn",
+        "string",   "strings", "tgmath",    "threads", "time",   "uchar",  "unistd",   "wchar",  "wctype"};
+    return headers.contains(name);
 }
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
@@ -284,6 +276,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     if (options.standalone && options.language == CodeLanguage::javascript)
         throw ModelError(say("a main program beside the equations is in C++ or C; leave out --standalone"));
     for (const std::string& place : options.frames) check_place(scene, place);
+    are_used(scene, options.frames);
+    are_used(scene, options.wrenches);
     if (!options.name.empty() && ascii_identifier(options.name) != options.name)
         throw ModelError(
             say("{} is no name for a file and a namespace; expected letters without accents, digits "
@@ -311,6 +305,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     const std::vector<int> second =
         options.casadi && e.derivatives ? casadi_second_derivatives(program) : std::vector<int>();
     if (!options.name.empty()) program.name = options.name;
+    if (options.language == CodeLanguage::c && is_header_of_c(ascii_identifier(program.name)))
+        program.name += "_scene";
     if (options.standalone || options.casadi)  // these have parameters alone, and nobody gives inputs
         for (Quantity& p : program.parameters) p.from_outside = false;
     const int places = options.standalone ? add_event_places(e, program) : 0;
@@ -324,7 +320,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     add_example(text, e);
     e.source = emit(program, text);
     if (options.standalone) {
-        e.main = main_program(e, program, options.language, places);
+        e.main = main_program(e, program, text, places);
         const Start start = start_of(e.mechanism);
         tell_narrow_places(e, program, Kinks::watched, start.state(), start.duration);
         for (const std::string& name : tables_with_close_knots(program))

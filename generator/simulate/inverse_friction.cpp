@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/base/error.hpp"
 #include "alembert/base/tolerances.hpp"
+#include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -106,7 +108,13 @@ std::vector<std::string> contacts_not_opened(const Mechanism& m, State<double> s
         }
         const bool rests = std::abs(value[1]) <= rounded_off * speed;
         const bool opens = rests ? value[2] > rounded_off * push : value[1] > 0;
-        if (value[0] <= tolerance::closed_gap * place && !opens) names.push_back(contact.gap.name);
+        if (value[0] > tolerance::closed_gap * place || opens) continue;
+        if (rests && value[2] < -rounded_off * push)
+            throw ModelError(
+                say("these accelerations go into contact '{}', which is closed: its gap would have the second "
+                    "derivative {:.6g}, and none below 0 is possible",
+                    contact.gap.name, value[2]));
+        names.push_back(contact.gap.name);
     }
     return names;
 }

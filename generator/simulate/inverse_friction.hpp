@@ -47,7 +47,8 @@ private:
     std::vector<One> list_;
 };
 
-/// Names of the contacts that are closed at this state and that these accelerations do not open.
+/// Names of the contacts that are closed at this state and that these accelerations do not open. Throws ModelError
+/// for accelerations that go into one.
 std::vector<std::string> contacts_not_opened(const Mechanism& mechanism, State<double> state,
                                              const Eigen::VectorXd& accelerations);
 

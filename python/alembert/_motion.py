@@ -83,6 +83,9 @@ class Run(Result):
 
     def save(self, path):
         """Writes the table as CSV, or as NAME.npz (NumPy) or NAME.h5 (HDF5), as `simulate -o` does."""
+        ending = _os.path.splitext(_os.fspath(path))[1].lower()
+        if ending not in ("", ".csv", ".txt", ".dat", ".npz", ".h5", ".hdf5"):
+            raise _alembert.ModelError(f"'{_os.fspath(path)}': a table is written; expected a name that ends in .csv, .npz, .h5")
         write(path, self._alive().file(_os.fspath(path)))
 
     def _repr_html_(self):

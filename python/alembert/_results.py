@@ -85,6 +85,13 @@ def axis(over):
         raise ValueError(f"{over!r}: expected (name, from, to) or (name, from, to, count)") from None
 
 
+def names_in(given):
+    """["A", "P"]; "A" alone, or "A,P" as the command line takes it."""
+    if isinstance(given, str):
+        return [one.strip() for one in given.split(",")] if given else []
+    return list(given)
+
+
 def numbers(**given):
     """Options as numbers, which the program checks; what is None is the scene's."""
     return {name: None if value is None else float(value) for name, value in given.items()}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene and its verbs."""
 
+import copy as _copy
 import json as _json
 import os as _os
 from collections.abc import Mapping as _Mapping
@@ -9,7 +10,7 @@ from . import _alembert
 from ._motion import Run, Swept
 from ._results import (
     Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Linearized, Marked, Result, Sources, Stability, ask, axis,
-    inputs_of, listed, numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
+    inputs_of, listed, names_in, numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
 from ._system import Robot, System
 from ._toml import to_toml
 from .expressions import from_sympy
@@ -29,6 +30,8 @@ class Scene:
     values which replace the scene's: numbers or expressions, {"theta": "pi/2", "theta'": 0}.
     """
 
+    _values = ()  # in place of the scene's, of what is compiled
+
     def __init__(self, source=None, *, text=None, name=None):
         if (source is None) == (text is None):
             raise TypeError("give a file or a dictionary, or text=…")
@@ -47,6 +50,7 @@ class Scene:
         """The scene of a robot description in URDF (or another form that `import` reads); `loops` is a file of joints
         that close loops, `package` a list of folders with models. `strict` refuses a robot whose motion the scene would
         change. `.imported` says what became of its parts."""
+        package = [package] if isinstance(package, (str, _os.PathLike)) else package
         options = {"floating": floating, "quaternion": quaternion, "drives": drives, "friction": friction,
                    "stops": stops, "right_angles": right_angles, "strict": strict,
                    "package": [_os.fspath(folder) for folder in package], "allow_outside": allow_outside,
@@ -116,23 +120,23 @@ class Scene:
 
     def kinematics(self, of=(), at=None, *, steps=False, jacobian=False):
         """Positions, velocities and accelerations of frames, bodies and points (all of them, or those named)."""
-        return self._ask("kinematics", of=list(of), at=values_at(at), steps=steps, jacobian=jacobian)
+        return self._ask("kinematics", of=names_in(of), at=values_at(at), steps=steps, jacobian=jacobian)
 
     def inertia(self, of=(), about="", at=None):
         """Masses, centres of mass and moments of inertia of bodies (all of them, or those named)."""
-        return self._ask("inertia", of=list(of), about=about, at=values_at(at))
+        return self._ask("inertia", of=names_in(of), about=about, at=values_at(at))
 
     def identify(self, at=None):
         """Which combinations of masses and moments of inertia motion can show (base parameters)."""
         return self._ask("identify", at=values_at(at))
 
-    def initial_state(self):
+    def initial_state(self, at=None):
         """Coordinates, then rates (or speeds), at the start: as `System.rhs` takes them."""
         import numpy
 
-        at = self.eval().json
-        second = at["speeds"] if at.get("speeds") else at["rates"]
-        return numpy.array([*at["coordinates"].values(), *second.values()], dtype=float)
+        found = self.eval(at).json
+        second = found["speeds"] if found.get("speeds") else found["rates"]
+        return numpy.array([*found["coordinates"].values(), *second.values()], dtype=float)
 
     # Equilibrium and stability
 
@@ -183,7 +187,7 @@ class Scene:
         `input={"u": "sin(t)"}`, or the name of a CSV file, gives an input that comes from outside."""
         given = numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
         return Run((self.text, self.name, by, method, list(given.values()), int(budget), estimate, reactions, fast_math,
-                    poincare, code, list(sensitivity), list(sensitivity_of), sensitivity_rows, regularize, tuning,
+                    poincare, code, names_in(sensitivity), names_in(sensitivity_of), sensitivity_rows, regularize, tuning,
                     values_at(at), inputs_of(input)))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
@@ -224,14 +228,20 @@ class Scene:
 
     # For other programs
 
-    def system(self, by="", *, jacobian=True):
-        """The compiled right-hand side, for other people's solvers."""
-        return System(self, by, jacobian)
+    def _given(self, at):
+        """The scene with values in place of its own, for what is compiled of it."""
+        same = _copy.copy(self)
+        same._values = values_at(at)
+        return same
 
-    def robot(self, functions=ROBOT_FUNCTIONS, frames=(), *, by=""):
+    def system(self, by="", *, jacobian=True, at=None):
+        """The compiled right-hand side, for other people's solvers."""
+        return System(self._given(at), by, jacobian)
+
+    def robot(self, functions=ROBOT_FUNCTIONS, frames=(), *, by="", at=None):
         """The compiled functions that control and planning need, over arrays of states; those of `frames` (points,
         bodies, or "P@F") too. `functions` may have "coriolis", "inverse_jacobian" and "regressor" besides."""
-        return Robot(self, functions, frames, by)
+        return Robot(self._given(at), functions, frames, by)
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
              frames=(), wrenches=(), batch=False, casadi=False, by="", name="", at=None):
@@ -240,7 +250,7 @@ class Scene:
             raise ValueError(f"language={language!r}: there are 'cpp', 'c' and 'js'")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
-                          jacobian=jacobian, functions=list(functions), frames=list(frames), wrenches=list(wrenches),
+                          jacobian=jacobian, functions=names_in(functions), frames=names_in(frames), wrenches=names_in(wrenches),
                           batch=batch, casadi=casadi, by=by, name=name, at=values_at(at))
         if folder is not None:
             _os.makedirs(folder, exist_ok=True)

@@ -4,7 +4,7 @@
 import unicodedata
 
 from . import _alembert
-from ._results import warn
+from ._results import names_in, warn
 
 
 class System:
@@ -23,7 +23,8 @@ class System:
     """
 
     def __init__(self, scene, by="", jacobian=True, functions=(), frames=()):
-        self._system, said, names = _alembert.system(scene.text, scene.name, by, jacobian, list(functions), list(frames))
+        lists = names_in(functions), names_in(frames), list(scene._values)
+        self._system, said, names = _alembert.system(scene.text, scene.name, by, jacobian, lists)
         warn(said)
         self.coordinates, self.speeds, self._parameters, self.inputs = names
         self._bind()

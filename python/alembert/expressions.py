@@ -31,7 +31,8 @@ class _Parser:
                 raise ValueError(f"cannot read {text[at:at + 20]!r} in {text!r}")
             self.tokens.append(match)
             at = match.end()
-        self.functions = set(functions) | {m[2] for m in self.tokens if m[3]}
+        self.functions = {functions} if isinstance(functions, str) else set(functions)
+        self.functions |= {m[2] for m in self.tokens if m[3]}
         self.position = 0
 
     def symbol(self):
@@ -109,6 +110,9 @@ class _Parser:
             return self.sympy.Derivative(*arguments)
         if name in _FUNCTIONS:
             return getattr(self.sympy, _RENAMED.get(name, name))(*arguments)
+        advice = "" if name in self.functions else _alembert.advice_on_function(name)
+        if advice:
+            raise ValueError(f"the scene language has no function '{name}'; {advice}")
         return self.sympy.Function(name)(*arguments)
 
 
@@ -116,7 +120,8 @@ def to_sympy(text, functions=()):
     """`text`, an expression or an equation of the scene language, as SymPy's, in all spellings that a scene may have
     ("ln(x)", "x²", "arcsin(x)"). Decimals become exact rationals.
 
-    Raises ValueError for a text that is none (vector functions and primes of parentheses are not read).
+    Raises ValueError for a text that is none (vector functions and primes of parentheses are not read), and for a function
+    that the scene language does not have (asinh, log10, cot …).
     """
     parser = _Parser(_alembert.in_words_of_scenes(text), functions)
     value = parser.sum()

@@ -17,6 +17,7 @@
 #include "program/lower/lower.hpp"
 #include "scene/body_points.hpp"
 #include "scene/text.hpp"
+#include "scene/used_places.hpp"
 
 namespace alembert {
 
@@ -178,6 +179,7 @@ std::optional<std::string> text_of(const Mechanism& m, const Entry& entry, const
 }  // namespace
 
 SceneInertia inertia(Scene scene, const InertiaOptions& options) {
+    are_used(scene, {options.about});
     SceneInertia result{prepared(std::move(scene), options.at, false, Coordinates::optional)};
     const std::vector<const MassElement*> elements = chosen(result, options.of);
     for (const MassElement* e : elements) result.of.push_back(name_of(result.scene, e->origin));

@@ -8,6 +8,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "codegen/emit/comment.hpp"
 #include "codegen/emit/solver_functions.hpp"
 #include "codegen/emit/templates.hpp"
 #include "codegen/emit/vocabulary.hpp"
@@ -127,6 +128,7 @@ SourceFile casadi_functions(const Program& p, const EmitOptions& options) {
     mustache::data file;
     file.set("scene", scene);
     file.set("version", ALEMBERT_VERSION);
+    file.set("command", comment_text(options.command));
     file.set("functions", functions);
     file.set("has_named", !options.functions.empty());
     file.set("has_time_derivative", has_derivatives && depends_on_time(p));

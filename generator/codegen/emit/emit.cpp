@@ -197,6 +197,7 @@ private:
         add(project(p_));
         add(gamma_at(p_));
         file_.set("has_projection", has_projection(p_));
+        file_.set("about_mass_forcing", mass_forcing(p_).about);
     }
 
     /// Whether rates are long, and multipliers are found on the way to them.
@@ -274,7 +275,9 @@ private:
         list("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
         list("event_names", quoted(root_names(p_, {Group::event})));
         std::string values;
-        for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
+        const bool is_c = options_.language == CodeLanguage::c;  // whose numbers may be floats
+        for (const Quantity& par : p_.parameters)
+            values += fmt::format(fmt::runtime(is_c ? "Real({}), " : "{}, "), shortest(par.value));
         list("parameter_values", values);
     }
 

@@ -116,10 +116,20 @@ FunctionTask right_hand_side(const Program& p, const Vocabulary& words) {
     return task;
 }
 
+namespace {
+
+const char* about_mass_forcing(const Program& p) {
+    if (p.has_norm_terms)
+        return "M + c A^T A (row-major) and f + c A^T gamma, with a c for the norm of each quaternion.";
+    return has_speeds(p) ? "M (s by s, row-major) and f of M u' = f."
+                         : "M (n by n, row-major) and f of M q'' = f.";
+}
+
+}  // namespace
+
 FunctionTask mass_forcing(const Program& p) {
     FunctionTask task{.name = "mass_forcing",
-                      .about = has_speeds(p) ? "M (s by s, row-major) and f of M u' = f."
-                                             : "M (n by n, row-major) and f of M q'' = f.",
+                      .about = about_mass_forcing(p),
                       .arguments = {t, state, par, to("mass"), to("forcing")},
                       .goals = {},
                       .results = {}};

@@ -7,6 +7,7 @@
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
+#include "codegen/emit/comment.hpp"
 #include "codegen/emit/interface.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/projection_text.hpp"
@@ -36,7 +37,8 @@ bool needs_rates(const Program& program) {
 
 }  // namespace
 
-SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language) {
+SourceFile standalone(const Program& program, const StandaloneStart& start, const EmitOptions& options) {
+    const CodeLanguage language = options.language;
     const Vocabulary words(program);
     const std::string scene = ascii_identifier(program.name), ending = language == CodeLanguage::c ? "c" : "cpp",
                       name = scene + "_main." + ending;
@@ -48,6 +50,7 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("scene", scene);
     file.set("space", namespace_of(program));
     file.set("version", ALEMBERT_VERSION);
+    file.set("command", comment_text(options.command));
     file.set("c", language == CodeLanguage::c);
     file.set("compile", language == CodeLanguage::c
                             ? fmt::format("cc -std=c99 -O2 {} {}.c -lm -o {}", name, scene, scene)

@@ -3,7 +3,7 @@
 
 /// A main program beside an emitted file, which integrates the system and prints its motion.
 ///
-///     const SourceFile main = standalone(program, {.state = {0.5, 0, 0, 0}}, CodeLanguage::c);
+///     const SourceFile main = standalone(program, {.state = {0.5, 0, 0, 0}}, {.language = CodeLanguage::c});
 ///     main.name;    // "double_pendulum_main.c"
 ///
 /// The template is templates/standalone.mustache.
@@ -34,6 +34,7 @@ struct StandaloneStart {
 /// "{from, to, enter, step}" of each, as C has it.
 std::vector<std::string> quick_rows(const std::vector<InputTimeScale>& quick);
 
-SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language);
+/// The options are those of the emitted file beside it.
+SourceFile standalone(const Program& program, const StandaloneStart& start, const EmitOptions& options);
 
 }  // namespace alembert

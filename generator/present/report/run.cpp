@@ -410,6 +410,7 @@ std::string as_text(const Run& run, const Ink& ink, int digits) {
     add_motion(page, run, digits);
     if (run.sensitivity) add_sensitivity(page, *run.sensitivity, digits);
     add_account(page, run);
+    if (run.failure) put(page, "{}{}{}", ink.bad, say("the motion broke off: {}\n", *run.failure), ink.end);
     return page;
 }
 

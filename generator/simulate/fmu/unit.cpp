@@ -8,6 +8,8 @@
 #include "base/archive/zip.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
+#include "codegen/emit/names.hpp"
+#include "simulate/emit_command.hpp"
 #include "simulate/fmu/description.hpp"
 #include "simulate/fmu/unit_source.hpp"
 
@@ -45,26 +47,37 @@ std::vector<NamedFunction> functions_of(const UnitModel& model) {
     return result;
 }
 
+std::string completed(EmitCommand command, const std::string& name, const FunctionalUnitOptions& options) {
+    command.add("--fmu", ascii_identifier(name) + ".fmu");
+    command.add("--fmi", options.version == 3 ? "3" : "");
+    for (const std::string& value : options.at) command.add("--at", value);
+    command.add("--by", options.by);
+    return std::move(command.text);
+}
+
 }  // namespace
 
 FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options) {
     if (options.version != 2 && options.version != 3)
         throw std::invalid_argument(say("fmi={}: there are the versions 2 and 3", options.version));
+    EmitCommand maker(scene.file);
     FunctionalUnit unit{unit_model(std::move(scene), options.by)};
     unit.version = options.version;
     unit.platform = options.version == 2 ? folder_2 : folder_3;
+    const std::string command = completed(std::move(maker), unit.program.name, options);
     const Source equations = emit(unit.program, {.language = CodeLanguage::c,
                                                  .functions = functions_of(unit),
                                                  .longest_function = longest_function,
-                                                 .shares_multipliers = true});
+                                                 .shares_multipliers = true,
+                                                 .command = command});
     unit.name = equations.file.substr(0, equations.file.size() - 2);
     unit.variables = unit_variables(unit);
     Fingerprint print;
     print.add(equations.text);
-    print.add(unit_source(unit, unit.variables, options.version, "").text);
+    print.add(unit_source(unit, unit.variables, {options.version, command, ""}).text);
     print.add(model_description(unit, unit.name, unit.variables, {.version = options.version, .token = ""}));
     unit.token = in_groups(print.hex());
-    const SourceFile functions = unit_source(unit, unit.variables, options.version, unit.token);
+    const SourceFile functions = unit_source(unit, unit.variables, {options.version, command, unit.token});
     const std::vector<CSource> files{{equations.file, equations.text},
                                      {equations.header->name, equations.header->text},
                                      {functions.name, functions.text}};

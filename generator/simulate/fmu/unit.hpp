@@ -14,8 +14,9 @@
 namespace alembert {
 
 struct FunctionalUnitOptions {
-    std::string by = {};  ///< a formalism; if empty, the program chooses
-    int version = 2;      ///< of FMI: 2 or 3
+    std::string by = {};               ///< a formalism; if empty, the program chooses
+    int version = 2;                   ///< of FMI: 2 or 3
+    std::vector<std::string> at = {};  ///< what was given in words, for the heads of the sources
 };
 
 struct FunctionalUnit : UnitModel {

@@ -10,6 +10,7 @@
 #include "alembert/base/argument.hpp"
 #include "alembert/base/inertia.hpp"
 #include "analysis/state/inertia_check.hpp"
+#include "codegen/emit/comment.hpp"
 #include "codegen/emit/elementary.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/projection_text.hpp"
@@ -163,8 +164,7 @@ void add_start(kainjow::mustache::data& file, const UnitModel& model) {
 
 }  // namespace
 
-SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& variables, int version,
-                       const std::string& token) {
+SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& variables, const UnitHead& head) {
     const Program& p = model.program;
     const Vocabulary words(p);
     const std::string scene = ascii_identifier(p.name);
@@ -173,7 +173,8 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     const auto number = [&file](const char* name, std::size_t value) { file.set(name, std::to_string(value)); };
     file.set("scene", scene);
     file.set("version", ALEMBERT_VERSION);
-    file.set("token", token);
+    file.set("token", head.token);
+    file.set("command", comment_text(head.command));
     number("n", words.q().size());
     number("s", words.u().size());
     number("p", parameters);
@@ -229,7 +230,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     file.set("instants_of_unit", rendered(template_fmu_instants));
     return {scene + "_fmu.c", rendered(template_fmu_model) + rendered(template_fmu_events) +
                                   rendered(template_fmu_steps) +
-                                  rendered(version == 2 ? template_fmi2 : template_fmi3)};
+                                  rendered(head.version == 2 ? template_fmi2 : template_fmi3)};
 }
 
 }  // namespace alembert

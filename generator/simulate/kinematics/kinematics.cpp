@@ -19,6 +19,7 @@
 #include "program/lower/lower.hpp"
 #include "scene/body_points.hpp"
 #include "scene/text.hpp"
+#include "scene/used_places.hpp"
 #include "simulate/evaluate.hpp"
 #include "simulate/given_accelerations.hpp"
 #include "simulate/kinematics/frames.hpp"
@@ -187,6 +188,10 @@ void find_jacobians(SceneKinematics& s, const State<double>& state) {
 
 SceneKinematics kinematics(Scene scene, const KinematicsOptions& options) {
     const Overrides at = without_accelerations(options.at);
+    if (options.of.empty())
+        all_places_are_used(scene);
+    else
+        are_used(scene, options.of);
     SceneKinematics s{prepared(std::move(scene), at, false, Coordinates::optional)};
     check_names(options.of, s.scene);
     const auto is_wanted = [&](const std::string& name) {

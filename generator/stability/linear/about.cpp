@@ -126,7 +126,10 @@ LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
     if (options.along) {
         result.about = About::any;
         const std::vector<Start> states = states_along(result, result.start, *options.along);
-        result.along = linearize_along(result.mechanism, result.equations, states);
+        std::function<void(double)> told;
+        if (options.along->progress)
+            told = [&](double part) { options.along->progress(say("the matrices"), part); };
+        result.along = linearize_along(result.mechanism, result.equations, states, told);
         for (const Start& state : states) result.times.push_back(state.t);
         result.matrices = result.along.front();
         return result;

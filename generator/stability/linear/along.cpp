@@ -89,14 +89,18 @@ std::vector<Start> states_along(const Derived& d, const Start& start, const Alon
     std::vector<double> initial = start.q;
     const State<double> first = state_of(start, d.mechanism, d.equations);
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
+    const double duration = wishes.duration.value_or(start.duration);
     const Trajectory found = integrate(
         make_rhs(motion.size(), [&](double t, const double* y, double* rate) { motion(t, y, rate); }), initial,
         {.start = start.t,
-         .duration = wishes.duration.value_or(start.duration),
+         .duration = duration,
          .tolerance = wishes.tolerance.value_or(std::min(start.tolerance, strictest)),
          .sample = wishes.sample.value_or(start.sample),
          .when_stiff = Method::radau,
-         .on_step = [&](double t, std::span<const double> y, std::span<const double>) { watch(t, y.data()); }});
+         .on_step = [&](double t, std::span<const double> y, std::span<const double>) {
+             watch(t, y.data());
+             if (wishes.progress && duration > 0) wishes.progress(say("integrating"), (t - start.t) / duration);
+         }});
     if (found.failure) throw_failure(*found.failure);
     std::vector<Start> states;
     const bool own_speeds = !d.equations.speeds_are_rates() && !start.speeds.empty();

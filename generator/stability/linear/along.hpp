@@ -7,12 +7,16 @@
 ///     const std::vector<Linearization> near = linearize_along(mechanism, equations, states);
 ///     near[3].A;       // δx' = A(t) δx + B(t) δinputs at t = start.t + 1.5
 
+#include <functional>
+#include <string_view>
+
 #include "analysis/derive/derived.hpp"
 
 namespace alembert {
 
 struct AlongOptions {
-    std::optional<double> duration = {}, tolerance = {}, sample = {};  ///< if missing, the scene's
+    std::optional<double> duration = {}, tolerance = {}, sample = {};       ///< if missing, the scene's
+    std::function<void(std::string_view what, double part)> progress = {};  ///< may be empty
 };
 
 /// The states of the motion from `start`, which obeys the constraints, at the rows that `simulate` gives. Throws

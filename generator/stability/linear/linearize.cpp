@@ -340,11 +340,13 @@ Linearization linearize(const Mechanism& mechanism, const Equations& equations, 
 }
 
 std::vector<Linearization> linearize_along(const Mechanism& mechanism, const Equations& equations,
-                                           const std::vector<Start>& starts) {
+                                           const std::vector<Start>& starts,
+                                           const std::function<void(double part)>& told) {
     const Mechanism m = in_terms_of(equations, mechanism);
     Linearizing here(m, equations, About::any);
     std::vector<Linearization> result;
     for (const Start& start : starts) {
+        if (told) told(static_cast<double>(result.size()) / static_cast<double>(starts.size()));
         here.move_to(start);
         result.push_back(here.go());
     }

@@ -28,6 +28,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -71,9 +72,11 @@ enum class About { steady, any };
 Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start,
                         About about = About::steady);
 
-/// The same about each of these states, with the independent coordinates and speeds of the first.
+/// The same about each of these states, with the independent coordinates and speeds of the first. `told` is called
+/// with the part that is done before each; it may be empty.
 std::vector<Linearization> linearize_along(const Mechanism& mechanism, const Equations& equations,
-                                           const std::vector<Start>& starts);
+                                           const std::vector<Start>& starts,
+                                           const std::function<void(double part)>& told = {});
 
 /// Whether it is an equilibrium or a steady motion in the speeds of these equations. Throws as `linearize` does
 /// for every other reason.

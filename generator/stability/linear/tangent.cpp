@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "alembert/base/error.hpp"
+#include "alembert/base/interrupt.hpp"
 #include "base/language/say.hpp"
 #include "stability/linear/dense_long.hpp"
 #include "stability/linear/paths.hpp"
@@ -137,6 +138,7 @@ MatrixOf<Real> columns_of(const MatrixOf<Real>& from, const std::vector<int>& wh
 /// A B, for expressions too; each kind of product takes Eigen a second to compile.
 template <typename Real>
 MatrixOf<Real> product(const MatrixOf<Real>& A, const MatrixOf<Real>& B) {
+    ask_whether_wanted();
     return A * B;
 }
 
@@ -341,6 +343,7 @@ private:
 template <typename Real>
 Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at, bool at_kink,
                       Undisturbed motion) {
+    ask_whether_wanted();
     return TangentAlgebra<Real>(r, split, at, at_kink, motion == Undisturbed::as_forced).run();
 }
 
