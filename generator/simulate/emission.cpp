@@ -12,6 +12,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/casadi.hpp"
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/standalone.hpp"
 #include "program/event_places.hpp"
@@ -168,9 +169,7 @@ std::string command_of(const Scene& scene, const EmissionOptions& options) {
     };
     const auto flag = [&](const char* name, bool is_given) { command += is_given ? std::string(" ") + name : ""; };
     add("-o", ".");
-    add("--language", options.language == CodeLanguage::c            ? "c"
-                      : options.language == CodeLanguage::javascript ? "js"
-                                                                     : "");
+    if (options.language != CodeLanguage::cpp) add("--language", std::string(dialect_of(options.language).option));
     add("--name", options.name);
     flag("--standalone", options.standalone);
     flag("--casadi", options.casadi);
@@ -270,7 +269,8 @@ const std::vector<std::string>& all_functions() {
 }
 
 CodeLanguage language_of(std::string_view name) {
-    return name == "c" ? CodeLanguage::c : name == "js" ? CodeLanguage::javascript : CodeLanguage::cpp;
+    const Dialect* const dialect = dialect_of(name);
+    return dialect == nullptr ? CodeLanguage::cpp : dialect->language;
 }
 
 std::vector<SourceFile> files_of(const Emission& e) {
@@ -281,7 +281,7 @@ std::vector<SourceFile> files_of(const Emission& e) {
 }
 
 Emission emission(Scene scene, const EmissionOptions& options) {
-    if (options.standalone && options.language == CodeLanguage::javascript)
+    if (options.standalone && options.language > CodeLanguage::c)
         throw ModelError(say("a main program beside the equations is in C++ or C; leave out --standalone"));
     for (const std::string& place : options.frames) check_place(scene, place);
     if (!options.name.empty() && ascii_identifier(options.name) != options.name)

@@ -14,6 +14,8 @@ from ._system import Robot, System
 from ._toml import to_toml
 from .expressions import from_sympy
 
+#: What `Scene.emit` writes.
+CODE_LANGUAGES = ("cpp", "c", "js", "python", "julia", "matlab", "rust", "modelica")
 #: What `Scene.robot` takes if nothing is named.
 ROBOT_FUNCTIONS = ("inverse", "mass", "bias", "gravity", "loads", "mass_inverse", "com", "com_jacobian", "momentum")
 
@@ -235,9 +237,10 @@ class Scene:
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
              frames=(), wrenches=(), batch=False, casadi=False, by="", name="", at=None):
-        """The C++ (or C, or JavaScript) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
-        if language not in ("cpp", "c", "js"):
-            raise ValueError(f"language={language!r}: there are 'cpp', 'c' and 'js'")
+        """The C++ of the system, or its code in another of `CODE_LANGUAGES`: `.sources`; written into a folder if one is
+        named, and then `.files`."""
+        if language not in CODE_LANGUAGES:
+            raise ValueError(f"language={language!r}: there are {', '.join(map(repr, CODE_LANGUAGES))}")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
                           jacobian=jacobian, functions=list(functions), frames=list(frames), wrenches=list(wrenches),
