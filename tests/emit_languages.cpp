@@ -321,6 +321,25 @@ position = ["({2} + {5})*sin({4})", "-({2} + {5})*cos({4})"]
                        names[0], names[1], names[2], names[3], names[4], names[5], text);
 }
 
+/// Functions by points of all kinds; states lie beyond their ends too, where e has no value.
+constexpr const char* tables = R"toml([coordinates]
+x = { initial = 0.1, rate = 0.2 }
+[[particle]]
+name = "car"
+mass = 1.5
+position = ["x", 0]
+[tables]
+e = { arguments = ["v"], points = [[-0.1, 0.2], [0.1, 0.5], [0.4, 0.1]] }
+f = { arguments = ["x"], interpolation = "pchip", outside = "line", points = [[-0.1, -3], [0, -1], [0.05, 0], [0.1, 1.2], [0.3, 2]] }
+g = { arguments = ["t"], period = 0.7, points = [[0, 0], [0.3, 1], [0.6, -0.5]] }
+h = { arguments = ["x", "v"], outside = "hold", interpolation = "cubic", points = [[-0.1, -0.1, 0.1], [-0.1, 0, 0.4], [-0.1, 0.2, 0.2], [0, -0.1, 0.3], [0, 0, 0.2], [0, 0.2, 0.5], [0.2, -0.1, 0], [0.2, 0, 0.1], [0.2, 0.2, 0.4]] }
+k = { arguments = ["x", "v"], outside = "line", points = [[-0.1, -0.1, 0.1], [-0.1, 0.1, 0.2], [0, -0.1, 0.3], [0, 0.1, 0.5], [0.1, -0.1, 0], [0.1, 0.1, 0.4]] }
+[forces]
+x = "-f(x) + g(t) - h(x, x')*x' - k(x, x')*x'"
+[outputs]
+measured = "e(x') + f(x)"
+)toml";
+
 }  // namespace
 
 TEST_CASE("emit: files of five further languages compute what the C++ computes, with Jacobians and constraints") {
@@ -335,8 +354,12 @@ TEST_CASE("emit: files of five further languages compute what the C++ computes, 
 TEST_CASE("emit: functions of robots, tables and inputs from outside are the same in five further languages") {
     agree("scenes/gallery/six_joint_arm.toml",
           {.functions = {"inverse", "mass", "gravity", "com_jacobian"}, .frames = {"flange"}});
+    agree("scenes/gallery/six_joint_arm.toml", {.fold = true, .wrenches = {"flange"}});
     agree("scenes/elements/drag_table.toml", {.jacobian = true});
     agree("scenes/elements/cam.toml", {.jacobian = true});
+    agree("scenes/elements/hill_muscle.toml");
+    agree("scenes/elements/dc_motor.toml", {.jacobian = true});
+    agree(parse_scene(tables, "tables.toml"), {.jacobian = true});
 }
 
 TEST_CASE(

@@ -268,6 +268,13 @@ class Scene:
                          **numbers(duration=duration))
         write(path, page._files["html"])
 
+    def live(self, *, duration=None, budget=3_000_000, height=720, by="", at=None):
+        """The page of the scene with the figure that moves and its sliders, for a notebook: a frame, or `.widget()`."""
+        from ._notebook import Live
+        page = self._ask("report", at=values_at(at), input=inputs_of(None), motion=True, poincare="", bench=False, by=by,
+                         budget=int(budget), **numbers(duration=duration))  # yapf: disable
+        return Live(page._files["html"].decode(), _os.path.splitext(_os.path.basename(self.name))[0], height)
+
     def _repr_latex_(self):
         return self.derive()._repr_latex_()
 

@@ -29,6 +29,15 @@ def outside(condition, value):
     return NAN if condition else value()
 
 
+class Beyond(Exception):
+    """An assertion of Modelica does not hold: where C has no number."""
+
+
+def held(condition):
+    if not condition:
+        raise Beyond
+
+
 def power(x, y):
     return outside(x < 0 and y != math.floor(y), lambda: x**y)
 
@@ -42,7 +51,7 @@ FUNCTIONS |= {
     "acos_or_nan": lambda x: outside(abs(x) > 1, lambda: math.acos(x)), "pow_or_nan": power, "pow": power,
     "sqrt": lambda x: outside(x < 0, lambda: math.sqrt(x)), "log": lambda x: outside(x < 0, lambda: math.log(x)),
     "asin": lambda x: outside(abs(x) > 1, lambda: math.asin(x)), "acos": lambda x: outside(abs(x) > 1, lambda: math.acos(x)),
-    "atan2": math.atan2, "zeros": lambda n: [0.0] * int(n), "assert": lambda condition, text: None,
+    "atan2": math.atan2, "zeros": lambda n: [0.0] * int(n), "assert": lambda condition: held(condition),
     "promote_type": lambda *types: float, "typeof": lambda x: float, "eltype": lambda x: float,
     "table_place": lambda at, x: min(max(sum(knot <= x for knot in at) - 1, 0), len(at) - 2),
 }  # fmt: skip
@@ -231,6 +240,8 @@ def functions_of_julia(text, known, constants):
         for line in body.splitlines():
             line = line.split("#")[0].rstrip()
             whole += " " + line
+            if whole.count("[") != whole.count("]"):
+                raise SyntaxError(f"a new row begins in {line.strip()!r}")
             if whole.count("(") == whole.count(")") and whole.strip():
                 lines.append(whole.strip())
                 whole = ""
@@ -264,7 +275,7 @@ def functions_of_modelica(text, known, constants):
         if name in ("pow", "table_place", "defaults"):
             continue
         body = re.sub(r"//.*", "", body)
-        body = re.sub(r'assert\((.*), "[^"]*"\);', "", body)
+        body = re.sub(r'assert\((.*), "[^"]*"\);', r"assert(\1);", body)
         variables = {}
         takes, gives = [], []
         for kind, names in re.findall(r"^    ((?:input |output )?(?:Real|Integer)) ([^;]*);", declared, re.M):
@@ -291,8 +302,11 @@ def functions_of_modelica(text, known, constants):
         def call(*values, takes=takes, gives=gives, variables=variables, steps=steps):
             v = dict(constants) | {k: list(x) if isinstance(x, list) else x for k, x in variables.items()}
             v |= dict(zip(takes, values, strict=True))
-            for step in steps:
-                step(v)
+            try:
+                for step in steps:
+                    step(v)
+            except Beyond:
+                return NAN
             return v[gives[0]] if len(gives) == 1 else tuple(v[one] for one in gives)
 
         functions[name] = known[name] = call
