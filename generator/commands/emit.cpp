@@ -61,8 +61,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .type_name(values::folder)
                 .required();
             verb.add_option("--language", options.language,
-                            say("cpp (default), c (C99 and a header), js (an ES module), python, julia, matlab, "
-                                "rust, modelica"))
+                            say("c, js, python, julia, matlab, rust, modelica; else C++"))
                 .type_name(values::language);
             verb.add_option("--name", options.emission.name,
                             say("of files and namespace; default: that of the scene"))
