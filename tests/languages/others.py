@@ -57,7 +57,7 @@ def simulated(name, scene):
     rows = list(csv.reader(open(os.path.join(folder, "run.csv"), encoding="utf-8")))
     begin, end = float(rows[1][0]), float(rows[-1][0])
     model = rumoca.Session().load(os.path.join(folder, name + ".mo"), model=name + ".Motion")
-    data = model.simulate((begin, end), dt=end - begin, config=rumoca.SimConfig(rtol=1e-9, atol=1e-10)).to_dict()["data"]
+    data = model.simulate((begin, end), dt=end - begin, config=rumoca.SimConfig(rtol=1e-11, atol=1e-12)).to_dict()["data"]
     found = [(float(value), data[key.replace("'", "_dot")][-1]) for key, value in zip(rows[0], rows[-1])
              if key.replace("'", "_dot") in data]  # fmt: skip
     assert len(found) > 1, name

@@ -16,4 +16,5 @@ if ! "$work/venv/bin/pip" -q install jax pymoca rumoca >"$work/log" 2>&1; then
     exit 77
 fi
 "$python" "$root/tests/languages/others.py" "$program" "$work" "$root"/scenes/textbook/{double_pendulum,four_bar,sled,heavy_top,two_body}.toml \
-    "$root"/scenes/textbook/{elastic_pendulum,free_body_quaternion,rolling_disc_in_space}.toml
+    "$root"/scenes/textbook/{elastic_pendulum,free_body_quaternion,rolling_disc_in_space}.toml \
+    "$root"/scenes/elements/{cam,drag_table}.toml
