@@ -20,9 +20,11 @@ cd -- "$(dirname -- "$0")"
 # shellcheck source=.ci/setup.sh
 . .ci/setup.sh
 # The form of C++ files; other compilers, that for WebAssembly too; pages in a browser; what opens the files that are written; workflows;
-# what others compute, in C++ and in Python; the manual's form; the shells that complete words.
+# what others compute, in C++ and in Python; the manual's form; the shells that complete words; emitted code of MATLAB and Rust;
+# notebooks.
 wanted="$wanted clang-format-14 clang gcc-arm-none-eabi libnewlib-dev emscripten chromium chromium-driver fonts-dejavu-core
-    python3-h5py hdf5-tools librsvg2-bin python3-yaml liborocos-kdl-dev libmujoco-dev python3-scipy python3-mpmath python3-venv python3-setuptools python3-wheel mandoc zsh fish"
+    python3-h5py hdf5-tools librsvg2-bin python3-yaml liborocos-kdl-dev libmujoco-dev python3-scipy python3-mpmath python3-venv python3-setuptools python3-wheel mandoc zsh fish octave rustc
+    python3-nbclient python3-ipykernel"
 set_up "$preset" all
 [ "$is_complete" = no ] || export ALEMBERT_NO_SKIP=1 # all tools are there: a test that misses one fails
 

@@ -10,6 +10,7 @@
 #include "codegen/emit/emit.hpp"
 #include "files.hpp"
 #include "model/formalism/formalisms.hpp"
+#include "model/formalism/routh.hpp"
 #include "present/figure/drawing.hpp"
 #include "program/lower/choose.hpp"
 #include "program/lower/start.hpp"

@@ -109,6 +109,10 @@ class Verbs(unittest.TestCase):
             with open(page, encoding="utf-8") as written:
                 self.assertIn("<math", written.read())
         self.assertIn("<svg", scene.draw()._repr_svg_())
+        written = [next(iter(scene.emit(language=one).sources)) for one in ("js", "python", "julia", "matlab", "rust", "modelica")]
+        self.assertEqual(written, ["double_pendulum." + ending for ending in ("mjs", "py", "jl", "m", "rs", "mo")])
+        with self.assertRaisesRegex(ValueError, "'rust'"):
+            scene.emit(language="fortran")
         lines = scene.emit().sources["double_pendulum.cpp"].splitlines()
         self.assertEqual([line for line in lines if line.startswith("#include <")], [])
 

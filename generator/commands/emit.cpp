@@ -54,14 +54,14 @@ void add_emit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EmitVerb>(
         app, chosen,
         {.name = "emit",
-         .about = say("writes the C++ of the system, or its C or JavaScript"),
+         .about = say("writes the C++ of the system, or its code in another language"),
          .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
         run, [](Verb& verb, EmitVerb& options) {
             verb.add_option("-o,--output", options.folder, say("the folder; the file is named after the scene"))
                 .type_name(values::folder)
                 .required();
             verb.add_option("--language", options.language,
-                            say("cpp (default), c (C99 and a header), js (an ES module)"))
+                            say("c, js, python, julia, matlab, rust, modelica; else C++"))
                 .type_name(values::language);
             verb.add_option("--name", options.emission.name,
                             say("of files and namespace; default: that of the scene"))

@@ -5,6 +5,7 @@
 
 #include "alembert/ode/method.hpp"
 #include "base/language/say.hpp"
+#include "codegen/emit/dialect.hpp"
 #include "model/formalism/formalisms.hpp"
 
 namespace alembert {
@@ -14,6 +15,12 @@ namespace {
 std::vector<std::string> formalism_words() {
     std::vector<std::string> words;
     for (const Formalism& f : formalisms()) words.push_back(f.name);
+    return words;
+}
+
+std::vector<std::string> code_words() {
+    std::vector<std::string> words;
+    for (const Dialect& dialect : dialects()) words.emplace_back(dialect.option);
     return words;
 }
 
@@ -31,7 +38,7 @@ std::vector<ValueKind> all_kinds() {
             {.name = values::sampling, .words = {"sobol", "latin", "uniform"}},
             {.name = values::code, .words = {"auto", "memory", "compiled"}},
             {.name = values::interface_version, .words = {"2", "3"}},
-            {.name = values::language, .words = {"cpp", "c", "js"}},
+            {.name = values::language, .words = code_words()},
             {.name = values::shell, .words = {"bash", "zsh", "fish"}}};
 }
 

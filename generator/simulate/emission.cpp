@@ -11,6 +11,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/casadi.hpp"
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/standalone.hpp"
 #include "program/event_places.hpp"
@@ -149,9 +150,8 @@ void add_example(EmitOptions& options, Emission& e) {
 std::string command_of(const Scene& scene, const EmissionOptions& options) {
     EmitCommand command(scene.file);
     command.add("-o", ".");
-    command.add("--language", options.language == CodeLanguage::c            ? "c"
-                              : options.language == CodeLanguage::javascript ? "js"
-                                                                             : "");
+    if (options.language != CodeLanguage::cpp)
+        command.add("--language", std::string(dialect_of(options.language).option));
     command.add("--name", options.name);
     command.flag("--standalone", options.standalone);
     command.flag("--casadi", options.casadi);
@@ -262,7 +262,8 @@ const std::vector<std::string>& all_functions() {
 }
 
 CodeLanguage language_of(std::string_view name) {
-    return name == "c" ? CodeLanguage::c : name == "js" ? CodeLanguage::javascript : CodeLanguage::cpp;
+    const Dialect* const dialect = dialect_of(name);
+    return dialect == nullptr ? CodeLanguage::cpp : dialect->language;
 }
 
 std::vector<SourceFile> files_of(const Emission& e) {
@@ -273,7 +274,7 @@ std::vector<SourceFile> files_of(const Emission& e) {
 }
 
 Emission emission(Scene scene, const EmissionOptions& options) {
-    if (options.standalone && options.language == CodeLanguage::javascript)
+    if (options.standalone && options.language > CodeLanguage::c)
         throw ModelError(say("a main program beside the equations is in C++ or C; leave out --standalone"));
     for (const std::string& place : options.frames) check_place(scene, place);
     are_used(scene, options.frames);

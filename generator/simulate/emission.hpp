@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `emit`: a scene's specialized C++, C or JavaScript.
+/// The verb `emit`: a scene's specialized C++, or its code in another language.
 ///
 ///     const Emission e = emission(read_scene("scenes/textbook/double_pendulum.toml"), {.batch = true});
 ///     e.source.text;
@@ -45,7 +45,7 @@ struct Emission : Derived {
 /// All files, the equations first.
 std::vector<SourceFile> files_of(const Emission& emission);
 
-/// "cpp", "c" or "js" as the verb and the Python package take them; C++ for any other.
+/// "cpp", "c", "js", "rust" … as the verb and the Python package take them (dialect.hpp); C++ for any other.
 CodeLanguage language_of(std::string_view name);
 
 /// The names of all functions that EmissionOptions::functions may have.

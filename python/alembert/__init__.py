@@ -19,6 +19,7 @@ message), ModelError, IntegrationError (with `.time` and `.state`), EnvironmentF
 from . import _alembert
 from ._alembert import EnvironmentFailure, Error, IntegrationError, ModelError, SceneError
 from ._motion import Run, Swept
+from ._notebook import Live, load_ipython_extension
 from ._results import (
     Agreed, Audited, Checked, Derivation, Drawn, Equation, Equilibria, Figure, Linearized, Marked, Result, SceneWarning,
     SINumber, Sources, Stability, progress)  # yapf: disable
@@ -29,7 +30,7 @@ from .expressions import from_sympy, to_sympy
 __version__ = _alembert.version
 __all__ = [
     "Agreed", "Audited", "Checked", "Derivation", "Drawn", "EnvironmentFailure", "Equation", "Equilibria", "Error",
-    "Figure", "IntegrationError", "Linearized", "Marked", "ModelError", "Result", "Robot", "RobotFunction", "Run", "SINumber",
+    "Figure", "IntegrationError", "Linearized", "Live", "Marked", "ModelError", "Result", "Robot", "RobotFunction", "Run", "SINumber",
     "Scene", "SceneError", "SceneWarning", "Sources", "Stability", "Swept", "System", "from_sympy", "progress",
     "to_sympy",
 ]  # yapf: disable

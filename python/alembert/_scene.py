@@ -15,6 +15,8 @@ from ._system import Robot, System
 from ._toml import to_toml
 from .expressions import from_sympy
 
+#: What `Scene.emit` writes.
+CODE_LANGUAGES = ("cpp", "c", "js", "python", "julia", "matlab", "rust", "modelica")
 #: What `Scene.robot` takes if nothing is named.
 ROBOT_FUNCTIONS = ("inverse", "mass", "bias", "gravity", "loads", "mass_inverse", "com", "com_jacobian", "momentum")
 
@@ -245,9 +247,10 @@ class Scene:
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
              frames=(), wrenches=(), batch=False, casadi=False, by="", name="", at=None):
-        """The C++ (or C, or JavaScript) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
-        if language not in ("cpp", "c", "js"):
-            raise ValueError(f"language={language!r}: there are 'cpp', 'c' and 'js'")
+        """The C++ of the system, or its code in another of `CODE_LANGUAGES`: `.sources`; written into a folder if one is
+        named, and then `.files`."""
+        if language not in CODE_LANGUAGES:
+            raise ValueError(f"language={language!r}: there are {', '.join(map(repr, CODE_LANGUAGES))}")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
                           jacobian=jacobian, functions=names_in(functions), frames=names_in(frames), wrenches=names_in(wrenches),
@@ -274,6 +277,13 @@ class Scene:
         page = self._ask("report", at=values_at(at), input=inputs_of(input), motion=motion, poincare=poincare, bench=bench, by=by, budget=int(budget),
                          **numbers(duration=duration))
         write(path, page._files["html"])
+
+    def live(self, *, duration=None, budget=3_000_000, height=720, by="", at=None):
+        """The page of the scene with the figure that moves and its sliders, for a notebook: a frame, or `.widget()`."""
+        from ._notebook import Live
+        page = self._ask("report", at=values_at(at), input=inputs_of(None), motion=True, poincare="", bench=False, by=by,
+                         budget=int(budget), **numbers(duration=duration))  # yapf: disable
+        return Live(page._files["html"].decode(), _os.path.splitext(_os.path.basename(self.name))[0], height)
 
     def _repr_latex_(self):
         return self.derive()._repr_latex_()

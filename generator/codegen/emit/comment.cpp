@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "codegen/emit/dialect.hpp"
+
 namespace alembert {
 
 namespace {
@@ -54,7 +56,7 @@ std::string commented(const std::vector<std::string>& lines, CodeLanguage langua
     for (const std::string& line : lines) {
         if (!result.empty()) result += '\n';
         if (language != CodeLanguage::c)
-            result += line.empty() ? "//" : "// " + line;
+            result += std::string(dialect_of(language).comment) + (line.empty() ? "" : " ") + line;
         else if (!line.empty())
             result += "   " + line;
     }

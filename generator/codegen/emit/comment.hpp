@@ -17,7 +17,7 @@ namespace alembert {
 /// direction of writing, and backslashes are left out; the signs that begin and end comments are parted.
 std::string comment_text(const std::string& text);
 
-/// The lines between `/*` and its end in C, with `//` before each in C++ and JavaScript.
+/// The lines between `/*` and its end in C; elsewhere each with `//`, or what the language has in its place.
 std::string commented(const std::vector<std::string>& lines, CodeLanguage language);
 
 }  // namespace alembert

@@ -2,15 +2,19 @@
 #include "codegen/emit/emit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <kainjow/mustache.hpp>
+#include <limits>
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/abi.hpp"
 #include "alembert/native/fingerprint.hpp"
 #include "codegen/emit/comment.hpp"
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/elementary.hpp"
+#include "codegen/emit/function_data.hpp"
 #include "codegen/emit/head.hpp"
 #include "codegen/emit/interface.hpp"
 #include "codegen/emit/layout.hpp"
@@ -25,45 +29,6 @@ namespace alembert {
 namespace {
 
 namespace mustache = kainjow::mustache;
-
-/// "M10 = 0, M11 = A", over several lines.
-std::vector<std::string> note_lines(const std::vector<std::string>& notes) {
-    std::vector<std::string> lines;
-    for (const std::string& note : notes) {
-        if (lines.empty() || lines.back().size() + note.size() > line_width) lines.emplace_back();
-        lines.back() += (lines.back().empty() ? "" : ", ") + comment_text(note);
-    }
-    return lines;
-}
-
-mustache::data data_of(const EmittedFunction& function) {
-    mustache::data sections{mustache::data::type::list};
-    for (const Passage& passage : function.passages) {
-        if (passage.statements.empty() && passage.notes.empty()) continue;
-        std::vector<std::string> lines;
-        for (const CodeStatement& statement : passage.statements) lines.push_back(wrapped(statement.text));
-        mustache::data section;
-        section.set("title", comment_text(passage.title));
-        section.set("notes", list_of(note_lines(passage.notes)));
-        section.set("lines", list_of(lines));
-        sections << section;
-    }
-    mustache::data result;
-    result.set("name", function.name);
-    result.set("is_part", function.is_part);
-    result.set("about", comment_text(function.about));
-    result.set("arguments", function.arguments);
-    result.set("unpack", list_of(function.unpacked));
-    result.set("ignored", list_of(function.ignored));
-    result.set("sections", sections);
-    return result;
-}
-
-std::vector<std::string> texts(const std::vector<int>& numbers) {
-    std::vector<std::string> result;
-    for (const int number : numbers) result.push_back(std::to_string(number));
-    return result;
-}
 
 /// The task as a call of a function that has one more result, which is left.
 EmittedFunction calling(const FunctionTask& task, const std::string& function, const std::string& left,
@@ -108,7 +73,14 @@ void put_fingerprint(std::string& source, std::string& header) {
 class SolverFile {
 public:
     SolverFile(const Program& program, const EmitOptions& options)
-        : p_(program), options_(options), words_(program, options.language) {}
+        : p_(program),
+          options_(options),
+          words_(program, options.language),
+          dialect_(dialect_of(options.language)) {
+        // Such functions cannot be called for what they fill, and no compiler is slow with long ones.
+        if (dialect_.results != ResultArrays::filled)
+            options_.longest_function = std::numeric_limits<std::size_t>::max();
+    }
 
     Source source() {
         const Operations cost = p_.count(p_.right_hand_side());
@@ -118,12 +90,23 @@ public:
         file_.set("functions", functions_);
         describe();
         add_counts();
-        set_elementary(file_, elementary_functions(p_));
+        const std::set<Op> elementary = elementary_functions(p_);
+        set_elementary(file_, elementary);
+        file_.set("has_outside", std::any_of(elementary.begin(), elementary.end(), [](Op op) {
+                      return op == Op::sqrt || op == Op::log || op == Op::asin || op == Op::acos || op == Op::pow;
+                  }));
         file_.set("batch", options_.batch);
         file_.set("types", true);
         add_elementary(file_);
-        file_.set("tables", table_functions(p_, options_.language));
-        add_javascript();
+        const std::string tables = table_functions(p_, options_.language);
+        file_.set("tables", dialect_.is_shaped()
+                                ? tables.substr(tables.find_first_not_of('\n') == std::string::npos
+                                                    ? 0
+                                                    : tables.find_first_not_of('\n'))
+                                : tables);
+        file_.set("has_tables", !tables.empty());
+        add_start();
+        if (dialect_.is_shaped()) name_quantities(file_, p_, words_, options_);
         const std::string name = ascii_identifier(p_.name);
         const auto rendered = [&](std::string_view shape) {
             return mustache::mustache{std::string(shape)}.render(file_);
@@ -138,6 +121,11 @@ public:
         if (options_.language == CodeLanguage::javascript)
             return {.file = name + ".mjs",
                     .text = rendered(template_solver_js),
+                    .operations = cost,
+                    .formulation = p_.formulation};
+        if (dialect_.is_shaped())
+            return {.file = fmt::format("{}.{}", module_, dialect_.extension),
+                    .text = without_gaps(rendered(dialect_.shape)),
                     .operations = cost,
                     .formulation = p_.formulation};
         describe_interface(file_, p_, words_, tasks_, options_);
@@ -162,9 +150,21 @@ private:
         return task;
     }
 
+    mustache::data shown(const EmittedFunction& function) const {
+        mustache::data result = data_of(function, dialect_);
+        if (!dialect_.is_shaped()) return result;
+        const std::size_t own = words_.par().size(), states = words_.q().size() + words_.u().size();
+        add_declarations(result, function,
+                         {{"state", states},
+                          {"rate", states},
+                          {"par", own + words_.constants().size()},
+                          {"inputs", static_cast<std::size_t>(words_.inputs_from_outside())}});
+        return result;
+    }
+
     /// A function without statements is not written; `has_name` tells the tables whether a function exists.
     void add(const std::vector<EmittedFunction>& list, const std::string& name) {
-        for (const EmittedFunction& function : list) functions_ << data_of(function);
+        for (const EmittedFunction& function : list) functions_ << shown(function);
         file_.set("has_" + name, !list.empty());
     }
     void add(const FunctionTask& plain) {
@@ -219,7 +219,7 @@ private:
         both.results.insert(both.results.end(), multipliers.results.begin(), multipliers.results.end());
         std::vector<EmittedFunction> list = written(p_, words_, both, options_);
         list.back().is_part = true;
-        for (const EmittedFunction& function : list) functions_ << data_of(function);
+        for (const EmittedFunction& function : list) functions_ << shown(function);
         add({calling(rates, both.name, multipliers.arguments.back().name, multipliers.results.size())},
             rates.name);
         add({calling(multipliers, both.name, rates.arguments.back().name,
@@ -235,10 +235,10 @@ private:
         add(jacobian_tangent(options_.jacobian_tangent));
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
-        list("rows", wrapped_list(texts(by_state.rows)));
-        list("columns", wrapped_list(texts(by_state.columns)));
-        list("parameter_rows", wrapped_list(texts(by_parameters.rows)));
-        list("parameter_columns", wrapped_list(texts(by_parameters.columns)));
+        list("rows", wrapped_list(places(by_state.rows)));
+        list("columns", wrapped_list(places(by_state.columns)));
+        list("parameter_rows", wrapped_list(places(by_parameters.rows)));
+        list("parameter_columns", wrapped_list(places(by_parameters.columns)));
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());
         number("derivative_operations", static_cast<std::size_t>(p_.count(nodes).total()));
@@ -249,7 +249,7 @@ private:
         for (const NamedFunction& function : options_.functions) {
             const FunctionTask task = with_inputs(named_function(p_, function));
             tasks_.push_back(task);
-            for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << data_of(part);
+            for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << shown(part);
             mustache::data entry;
             entry.set("name", function.name);
             entry.set("about", comment_text(task.about));
@@ -263,40 +263,41 @@ private:
     }
 
     void describe() {
-        file_.set("scene", ascii_identifier(p_.name));
+        module_ = Names(options_.language).fresh(p_.name);
+        file_.set("scene", dialect_.is_shaped() ? module_ : ascii_identifier(p_.name));
         file_.set("formulation", p_.formulation);
         file_.set("version", ALEMBERT_VERSION);
         file_.set("head", commented(head_of(p_, words_, options_), options_.language));
         file_.set("has_speeds", !p_.speeds.empty());
-        list("speed_names", quoted(labels_of(words_.u())));
-        list("coordinate_names", quoted(labels_of(words_.q())));
+        counted_list("speed_names", labels_of(words_.u()));
+        counted_list("coordinate_names", labels_of(words_.q()));
         list("parameter_names", quoted(labels_of(words_.par())));
         describe_inputs();
-        list("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
-        list("event_names", quoted(root_names(p_, {Group::event})));
-        std::string values;
-        const bool is_c = options_.language == CodeLanguage::c;  // whose numbers may be floats
-        for (const Quantity& par : p_.parameters)
-            values += fmt::format(fmt::runtime(is_c ? "Real({}), " : "{}, "), shortest(par.value));
-        list("parameter_values", values);
+        counted_list("output_names", root_names(p_, {Group::output, Group::speed}));
+        counted_list("event_names", root_names(p_, {Group::event}));
+        std::vector<double> values;
+        for (const Quantity& par : p_.parameters) values.push_back(par.value);
+        std::string of_c;  // whose numbers may be floats
+        for (const double value : values) of_c += fmt::format("Real({}), ", shortest(value));
+        list("parameter_values", options_.language == CodeLanguage::c ? of_c : listed(values));
     }
 
     /// The array of inputs from outside, whose values in the scene stand among the parameters.
     void describe_inputs() {
         const int count = words_.inputs_from_outside(), first = words_.first_input();
         std::vector<std::string> own, inputs;
-        std::string values;
+        std::vector<double> values;
         for (std::size_t k = 0; k < words_.par().size(); ++k) {
             (words_.is_from_outside(k) ? inputs : own).push_back(words_.par()[k]);
-            if (words_.is_from_outside(k)) values += shortest(p_.parameters[k].value) + ", ";
+            if (words_.is_from_outside(k)) values.push_back(p_.parameters[k].value);
         }
         file_.set("has_inputs", count > 0);
         number("inputs", inputs.size());
         number("first_input", static_cast<std::size_t>(first));
         number("own_p", own.size());
-        list("own_parameter_names", quoted(labels_of(own)));
-        list("input_names", quoted(labels_of(inputs)));
-        list("input_values", values);
+        counted_list("own_parameter_names", labels_of(own));
+        counted_list("input_names", labels_of(inputs));
+        list("input_values", listed(values));
         file_.set("par", count > 0 ? fmt::format("par, par + {}", first) : "par");
         file_.set("par_in_packs", count > 0 ? fmt::format("packs(par + at), packs(par + {} * systems + at)", first)
                                             : "packs(par + at)");
@@ -304,19 +305,25 @@ private:
         file_.set("given", count > 0 ? " const ALEMBERT_REAL *inputs," : "");
     }
 
-    /// What the template of JavaScript needs beside the others.
-    void add_javascript() {
+    /// What the templates of JavaScript and the further languages need beside the others.
+    void add_start() {
         std::string library;
         const auto add = [&](const std::string& name) { library += (library.empty() ? "" : ", ") + name; };
         for (const Op op : elementary_functions(p_))
             if (op != Op::unspecified) add(name_of(op));
         if (uses_pi()) add("PI");
+        std::vector<std::string> of_one;
+        for (const Op op : elementary_functions(p_))
+            if (op <= Op::abs || op == Op::sqrt) of_one.emplace_back(name_of(op));
+        file_.set("one_argument", list_of(of_one));
         file_.set("has_math", !library.empty());
         file_.set("math", library);
-        file_.set("initial_time", shortest(options_.t));
-        std::string state;
-        for (const double x : options_.state) state += shortest(x) + ", ";
-        list("initial_state", state);
+        file_.set("initial_time", dialect_.listed(shortest(options_.t)));
+        list("initial_state", listed(options_.state));
+        file_.set("example_time", options_.state.empty() ? dialect_.listed("0") : "");
+        number("states", words_.q().size() + words_.u().size());
+        number("initial_states", options_.state.size());
+        number("constants", words_.constants().size());
         number("length", words_.par().size() + words_.constants().size());
     }
 
@@ -348,17 +355,44 @@ private:
         file_.set("together", has_matrix && !one_by_one);
     }
 
-    /// "a, b, "; in JavaScript "a, b".
-    void list(const char* key, std::string items) {
-        if (options_.language == CodeLanguage::javascript)
+    /// Places in arrays, counted from that which is first in the language.
+    std::vector<std::string> places(const std::vector<int>& numbers) const {
+        std::vector<std::string> result;
+        for (const int number : numbers) result.push_back(std::to_string(number + dialect_.first));
+        return result;
+    }
+
+    /// "a, b, "; in languages other than C and C++ "a, b".
+    void list(const std::string& key, std::string items) {
+        if (options_.language >= CodeLanguage::javascript)
             while (!items.empty() && (items.back() == ' ' || items.back() == ',')) items.pop_back();
+        if (dialect_.language == CodeLanguage::matlab) {
+            std::replace(items.begin(), items.end(), '"', '\'');
+            for (std::size_t at = items.find('\n'); at != std::string::npos; at = items.find('\n', at + 5))
+                items.insert(at, " ...");
+        }
         file_.set(key, items);
+        file_.set("any_" + key, !items.empty());
+    }
+    /// "1, 2.5, ": in Rust "1.0, 2.5".
+    std::string listed(const std::vector<double>& values) const {
+        std::vector<std::string> items;
+        for (const double value : values) items.push_back(dialect_.listed(shortest(value)));
+        if (dialect_.is_shaped()) return wrapped_list(items);
+        return items.empty() ? "" : fmt::format("{}, ", fmt::join(items, ", "));
     }
     void number(const char* key, std::size_t value) { file_.set(key, std::to_string(value)); }
+    /// How many items a list has, for languages that declare it.
+    void counted_list(const std::string& key, const std::vector<std::string>& names) {
+        list(key, quoted(names));
+        file_.set("count_of_" + key, std::to_string(names.size()));
+    }
 
     const Program& p_;
     EmitOptions options_;
     Vocabulary words_;
+    const Dialect& dialect_;
+    std::string module_;  ///< what the module, package or function of the whole file is called
     mustache::data file_;
     mustache::data functions_{mustache::data::type::list};
     std::vector<FunctionTask> tasks_;  ///< that have a function of their own in the file

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Writes straight-line code as a C++ file or a C99 file, each with its header, or as a JavaScript module.
+/// Writes straight-line code as a C++ file or a C99 file, each with its header, or as a file in another language
+/// (dialect.hpp).
 ///
 ///     const Source source = emit(program);
 ///     source.file;   // "double_pendulum.cpp"

@@ -39,9 +39,17 @@ struct FunctionTask {
     std::vector<Goal> goals;
     std::vector<FunctionResult> results;
     std::vector<RateCopy> copies = {};  ///< written before the results
+    std::size_t size = 0;               ///< of `out`, where it has places behind those of the results
     /// The unknowns that do not stand in the array of unknowns, by their number: in which array, and where. For
     /// machine code alone.
     std::map<int, std::pair<std::string, int>> elsewhere = {};
+};
+
+/// An array of results.
+struct GivenArray {
+    std::string name;
+    std::size_t size;
+    bool is_filled;  ///< whether each of its places gets a value
 };
 
 struct EmittedFunction {
@@ -50,10 +58,14 @@ struct EmittedFunction {
     std::vector<std::string> ignored = {};   ///< arguments that C must name although the function may not use them
     std::vector<Passage> passages = {};
     bool is_part = false;
+    // For languages whose functions have outputs, or declare their values beforehand.
+    std::vector<FunctionArgument> takes = {};
+    std::vector<GivenArray> gives = {};
+    std::vector<std::string> names = {};
 };
 
-/// "const Real* state": numbers are passed by reference in C++, where Real may be a pack of eight; JavaScript
-/// names no types. `real` is what stands for Real.
+/// "const Real* state": numbers are passed by reference in C++, where Real may be a pack of eight; Rust has types
+/// of its own, and the other languages name none. `real` is what stands for Real.
 std::string typed(CodeLanguage language, const FunctionArgument& argument, const std::string& real = "Real");
 
 /// The functions; none if there is nothing to compute.

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "codegen/emit/comment.hpp"
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/interface.hpp"
 #include "codegen/emit/layout.hpp"
 #include "codegen/emit/numbers.hpp"
@@ -56,6 +57,7 @@ public:
               {fmt::format("{} a right-hand side: {}, {}, {}, {}", counted(cost.total(), "operation"),
                            counted(cost.additions, "addition"), counted(cost.multiplications, "multiplication"),
                            counted(cost.divisions, "division"), counted(cost.functions, "function"))});
+        if (dialect_of(options_.language).is_shaped()) return lines_;  // the template has the example
         lines_.insert(lines_.end(), {"", example_title(), ""});
         switch (options_.language) {
             case CodeLanguage::cpp:
@@ -67,7 +69,7 @@ public:
             case CodeLanguage::c:
                 example_in_c();
                 break;
-            case CodeLanguage::javascript:
+            default:
                 example_in_javascript();
         }
         return lines_;
@@ -107,7 +109,10 @@ private:
         if (count(Group::gamma) > 0)
             text += own_speeds ? " + A^T lambda with A u' = gamma" : " + A^T lambda with A q'' = gamma";
         lines_.push_back(text + ".");
-        if (options_.language == CodeLanguage::javascript) {
+        const std::vector<std::string>& notes = dialect_of(options_.language).notes;
+        if (!notes.empty()) {
+            lines_.insert(lines_.end(), notes.begin(), notes.end());
+        } else if (options_.language == CodeLanguage::javascript) {
             lines_.insert(lines_.end(),
                           {"A module of JavaScript (ECMAScript 2015) that imports nothing and keeps no state.",
                            "All arguments but t are arrays, at best of type Float64Array."});
@@ -224,7 +229,7 @@ private:
                 return title + fmt::format(" Compile it with cc -std=c99 -O2 example.c {}.c -lm", scene_);
             case CodeLanguage::javascript:
                 return title + " Run it with node example.mjs";
-            case CodeLanguage::cpp:
+            default:
                 break;
         }
         return title + (is_header_ ? fmt::format(" Compile it with c++ -O2 example.cpp {}.cpp", scene_)

@@ -15,11 +15,13 @@ std::string wrapped_line(const std::string& line) {
     std::size_t start = 0;
     while (line.size() - start > line_width) {
         std::size_t cut = std::string::npos;
-        for (std::size_t at = line.find(' ', start); at != std::string::npos && at - start < line_width;
-             at = line.find(' ', at + 1))
-            if (at + 1 < line.size() &&
+        int depth = 0;
+        for (std::size_t at = start; at < line.size() && at - start < line_width; ++at) {
+            depth += line[at] == '[' ? 1 : line[at] == ']' ? -1 : 0;
+            if (line[at] == ' ' && depth == 0 && at > start && at + 1 < line.size() &&
                 (std::string_view("+-*/").find(line[at + 1]) != std::string_view::npos || line[at - 1] == ','))
                 cut = at;
+        }
         if (cut == std::string::npos) break;
         result += line.substr(start, cut - start) + "\n        ";
         start = cut + 1;

@@ -12,7 +12,8 @@ namespace alembert {
 
 constexpr std::size_t line_width = 110;
 
-/// Breaks long lines and indents the rest; lines are only broken before an operator or after a comma.
+/// Breaks long lines and indents the rest; lines are only broken before an operator or after a comma, and not
+/// inside square brackets, where Julia would begin a new row.
 std::string wrapped(const std::string& text);
 
 /// "a, b, " over several lines.

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/reserved_words.hpp"
 
 namespace alembert {
@@ -72,10 +73,9 @@ std::string ascii_identifier(const std::string& text) {
 
 Names::Names(CodeLanguage language) {
     taken_.insert(own.begin(), own.end());
-    if (language == CodeLanguage::javascript) {
-        const std::span<const std::string_view> words = javascript_words();
-        taken_.insert(words.begin(), words.end());
-    }
+    const Dialect& dialect = dialect_of(language);
+    taken_.insert(dialect.words.begin(), dialect.words.end());
+    longest_ = dialect.longest_name;
 }
 
 bool Names::take(std::string& name) {
@@ -89,6 +89,7 @@ bool Names::take(std::string& name) {
 
 std::string Names::fresh(const std::string& wish) {
     std::string name = ascii_identifier(wish);
+    if (name.size() > longest_) return numbered(name.substr(0, longest_) + "_");
     if (take(name)) return name;
     if (name.back() != '_') {
         name += '_';

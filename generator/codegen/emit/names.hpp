@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Identifiers of C++, C and JavaScript for the names of a scene. The compiler never sees text that a user typed,
-/// only identifiers made here.
+/// Identifiers of C++, C, JavaScript and the other languages for the names of a scene. The compiler never sees
+/// text that a user typed, only identifiers made here.
 
 #include <map>
 #include <set>
@@ -15,7 +15,7 @@ namespace alembert {
 
 class Names {
 public:
-    /// At first the names that the emitted code itself uses are taken, and in JavaScript its reserved words.
+    /// At first the names that the emitted code itself uses are taken, and further reserved words of the language.
     explicit Names(CodeLanguage language = CodeLanguage::cpp);
 
     /// A new identifier like `wish`. Greek letters are spelled out, other letters beyond ASCII become u and their
@@ -31,6 +31,7 @@ private:
 
     std::set<std::string> taken_;
     std::map<std::string, int> next_;
+    std::size_t longest_;
 };
 
 /// `text` with everything that is no ASCII letter, digit or `_` spelled out as above.

@@ -12,6 +12,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "codegen/emit/dialect.hpp"
 
 namespace alembert {
 
@@ -43,8 +44,7 @@ std::string shortest(double value) {
 }
 
 std::string literal(const std::string& digits, CodeLanguage language) {
-    if (language != CodeLanguage::javascript) return fmt::format("Real({})", digits);
-    return digits.starts_with('-') ? fmt::format("({})", digits) : digits;
+    return dialect_of(language).literal(digits);
 }
 
 std::string number_text(const Rational& value, CodeLanguage language) {
@@ -52,11 +52,11 @@ std::string number_text(const Rational& value, CodeLanguage language) {
     const cln::cl_I largest = cln::expt_pos(cln::cl_I(2), 53);
     if (denominator == 1 && cln::abs(numerator) <= largest) return literal(digits(numerator), language);
     const double nearest = nearest_double(value);
-    // In JavaScript a decimal such as 9.81 is written with its digits; else what no double is, 1/3, is left to the
-    // division of Real, which has more digits or less.
+    // Where numbers are doubles a decimal such as 9.81 is written with its digits; else what no double is, 1/3, is
+    // left to the division of Real, which has more digits or less.
     cln::cl_I rest = denominator;
     while (cln::zerop(cln::mod(rest, 2))) rest = cln::exquo(rest, 2);
-    if (language == CodeLanguage::javascript)
+    if (dialect_of(language).has_decimals)
         while (cln::zerop(cln::mod(rest, 5))) rest = cln::exquo(rest, 5);
     if (rest != 1 && cln::abs(numerator) <= largest && denominator <= largest)
         return fmt::format("({} / {})", literal(digits(numerator), language),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Numbers as C++.
+/// Numbers in code.
 
 #include <string>
 
@@ -13,7 +13,7 @@ namespace alembert {
 /// The shortest decimal that gives the same double when it is read.
 std::string shortest(double value);
 
-/// The literal of a number with these digits: Real(3); in JavaScript 3, or (-3).
+/// The literal of a number with these digits: Real(3); in JavaScript 3, or (-3); in Rust R::of(3.0).
 std::string literal(const std::string& digits, CodeLanguage language);
 
 /// A rational as a double or a quotient of two, with as few characters as possible.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "codegen/emit/dialect.hpp"
+
 namespace alembert {
 
 namespace {
@@ -49,7 +51,8 @@ std::map<std::string, CarriedValue> carried_values(const std::vector<CodeStateme
 }  // namespace
 
 FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t length, CodeLanguage language) {
-    const char* const type = language == CodeLanguage::cpp ? "Real& " : language == CodeLanguage::c ? "Real " : "";
+    const Dialect& dialect = dialect_of(language);
+    const auto carried_at = [&](int place) { return dialect.place("carried", static_cast<std::size_t>(place)); };
     FunctionParts parts;
     const std::map<std::string, CarriedValue> values = carried_values(statements, length, parts.carried);
     for (std::size_t first = 0; first < statements.size(); first += length) {
@@ -62,12 +65,15 @@ FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t
         for (const std::string& name : part.names)
             if (const auto value = values.find(name);
                 value != values.end() && value->second.made_in < parts.list.size() - 1)
-                part.lines.push_back(fmt::format("const {}{} = carried[{}];", type, name, value->second.place));
+                part.lines.push_back(
+                    language == CodeLanguage::cpp
+                        ? fmt::format("const Real& {} = {};", name, carried_at(value->second.place))
+                        : dialect.declared(name, carried_at(value->second.place)));
         for (std::size_t i = first; i < end; ++i) {
             part.lines.push_back(statements[i].text);
             for (const std::string& name : statements[i].names)
                 if (const int place = values.at(name).place; place >= 0)
-                    part.lines.push_back(fmt::format("carried[{}] = {};", place, name));
+                    part.lines.push_back(dialect.assigned(carried_at(place), name));
         }
     }
     return parts;

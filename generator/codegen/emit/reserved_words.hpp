@@ -14,6 +14,8 @@
 #include <span>
 #include <string_view>
 
+#include "codegen/emit/statement.hpp"
+
 namespace alembert {
 
 /// Whether the name begins with a capital and a second character that is no small letter, and has two capitals, as
@@ -29,5 +31,7 @@ bool is_global_in_c(std::string_view name);
 
 /// What a module of JavaScript must not use as a name beside these.
 std::span<const std::string_view> javascript_words();
+/// What a file in another language must not use beside these (dialect_words.cpp).
+std::span<const std::string_view> reserved_in(CodeLanguage language);
 
 }  // namespace alembert

@@ -244,6 +244,7 @@ FunctionTask gamma_at(const Program& p) {
     const std::vector<int> kept = p.kept_constraints();
     for (std::size_t k = 0; k < kept.size(); ++k)
         task.results.push_back({"out", {static_cast<std::size_t>(kept[k])}, task.goals[k].node});
+    task.size = constraints_of(p);
     return task;
 }
 

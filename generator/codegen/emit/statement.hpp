@@ -14,8 +14,8 @@
 namespace alembert {
 
 /// The language of a file. C is C99 with `Real` for double, so that the same text of an expression serves both;
-/// JavaScript has one type of numbers, which no text names.
-enum class CodeLanguage { cpp, c, javascript };
+/// how the others write it is in dialect.hpp.
+enum class CodeLanguage { cpp, c, javascript, python, julia, matlab, rust, modelica };
 
 struct CodeStatement {
     std::vector<std::string> names = {};  ///< names that it declares, each a Real

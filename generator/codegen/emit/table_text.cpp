@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/language/say.hpp"
+#include "codegen/emit/chosen_tables.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/templates.hpp"
@@ -26,9 +27,35 @@ bool is_side(const Call& call) {
     return call.orders[0] >= TabulatedFunction::side_function;
 }
 
-std::string base_name(const Program& p, const Node& node) {
-    const std::size_t index = p.function_of(node);
-    return fmt::format("table{}_{}", index, ascii_identifier(p.functions.at(index)));
+/// Σ of `terms` with u from the power `order` on, differentiated so often.
+std::string horner(const std::vector<std::string>& terms, int order, const std::string& u,
+                   const TableWords& words) {
+    std::string text;
+    for (int j = static_cast<int>(terms.size()) - 1; j >= order; --j) {
+        int factor = 1;
+        for (int k = 0; k < order; ++k) factor *= j - k;
+        const std::string term =
+            factor == 1 ? terms[static_cast<std::size_t>(j)]
+                        : fmt::format("{} * {}", words.number(factor), terms[static_cast<std::size_t>(j)]);
+        text = text.empty() ? term : fmt::format("{} + {} * ({})", term, u, text);
+    }
+    return text.empty() ? words.number(0) : text;
+}
+
+std::string polynomial(const TabulatedFunction& table, const TabulatedFunction::Orders& orders,
+                       const TableWords& words) {
+    const int count = table.degree() + 1;
+    std::vector<std::string> rows;
+    for (int j = 0; j < count; ++j) {
+        if (table.arguments() == 1) {
+            rows.push_back(words.coefficient(j));
+            continue;
+        }
+        std::vector<std::string> terms;
+        for (int l = 0; l < count; ++l) terms.push_back(words.coefficient(count * j + l));
+        rows.push_back("(" + horner(terms, orders[1], "u2", words) + ")");
+    }
+    return horner(rows, orders[0], "u1", words);
 }
 
 class TableText {
@@ -58,7 +85,7 @@ public:
         file.set("held", any_held && language_ != CodeLanguage::javascript);
         std::string text = "\n\n" + kainjow::mustache::mustache{std::string(template_tables)}.render(file);
         for (const auto& [name, node] : calls) {
-            const std::string base = base_name(p_, *node);
+            const std::string base = table_base(p_, *node);
             if (!written_.contains(base)) text += numbers(base, *p_.table_of(*node));
             written_.insert(base);
             text += function(name, *node);
@@ -106,7 +133,7 @@ private:
         for (const Root& root : p_.roots) roots.push_back(root.node);
         for (const int id : p_.needed(roots)) {
             const Node& node = p_[id];
-            if (node.op != Op::unspecified || base_name(p_, node) != base) continue;
+            if (node.op != Op::unspecified || table_base(p_, node) != base) continue;
             const Call call = p_.table_call(node);
             if (is_side(call) ? TabulatedFunction::side_axis(call.orders[0]) == axis : call.is_held) return true;
         }
@@ -131,8 +158,10 @@ private:
                                : fmt::format("    const {} {} = {};\n", type, name, value);
     }
     std::string real(const std::string& x) const { return is_javascript() ? x : fmt::format("Real({})", x); }
-    std::string coefficient(int k) const {
-        return (is_javascript() ? "c[cell + " : "c[") + std::to_string(k) + "]";
+    TableWords words() const {
+        return {.coefficient =
+                    [this](int k) { return (is_javascript() ? "c[cell + " : "c[") + std::to_string(k) + "]"; },
+                .number = [](int k) { return std::to_string(k); }};
     }
     std::string no_number() const {
         return is_javascript() ? "NaN" : language_ == CodeLanguage::c ? "(Real)NAN" : "Real(__builtin_nan(\"\"))";
@@ -144,54 +173,6 @@ private:
     }
     std::string as_double(const std::string& x) const {
         return language_ == CodeLanguage::cpp ? fmt::format("double({})", x) : x;
-    }
-
-    /// Σ of `terms` with u from the power `order` on, differentiated so often.
-    static std::string horner(const std::vector<std::string>& terms, int order, const std::string& u) {
-        std::string text;
-        for (int j = static_cast<int>(terms.size()) - 1; j >= order; --j) {
-            int factor = 1;
-            for (int k = 0; k < order; ++k) factor *= j - k;
-            const std::string term = factor == 1
-                                         ? terms[static_cast<std::size_t>(j)]
-                                         : fmt::format("{} * {}", factor, terms[static_cast<std::size_t>(j)]);
-            text = text.empty() ? term : fmt::format("{} + {} * ({})", term, u, text);
-        }
-        return text.empty() ? "0" : text;
-    }
-
-    std::string polynomial(const TabulatedFunction& table, const TabulatedFunction::Orders& orders) const {
-        const int count = table.degree() + 1;
-        std::vector<std::string> rows;
-        for (int j = 0; j < count; ++j) {
-            if (table.arguments() == 1) {
-                rows.push_back(coefficient(j));
-                continue;
-            }
-            std::vector<std::string> terms;
-            for (int l = 0; l < count; ++l) terms.push_back(coefficient(count * j + l));
-            rows.push_back("(" + horner(terms, orders[1], "u2") + ")");
-        }
-        return horner(rows, orders[0], "u1");
-    }
-
-    /// The value from y1, u1, c …; beyond the ends along the line, by the slopes there.
-    std::string value(const TabulatedFunction& table, const Call& call) const {
-        std::string text = polynomial(table, call.orders);
-        if (table.outside() != TabulatedFunction::Outside::line) return text;
-        const auto goes_on = [&](std::size_t k) {
-            return k < call.arguments && call.orders[k] == 0 && table.axes()[k].period == 0;
-        };
-        auto orders = call.orders;
-        for (std::size_t k = 0; k < 2; ++k)
-            if (goes_on(k)) {
-                orders = call.orders;
-                ++orders[k];
-                text += fmt::format(" + (x{0} - y{0}) * ({1})", k + 1, polynomial(table, orders));
-            }
-        if (goes_on(0) && goes_on(1))
-            text += fmt::format(" + (x1 - y1) * (x2 - y2) * ({})", polynomial(table, {1, 1}));
-        return text;
     }
 
     /// y, the piece k and u along an axis, or a return where there is no value.
@@ -255,7 +236,7 @@ private:
     std::string function(const std::string& name, const Node& node) const {
         const TabulatedFunction& table = *p_.table_of(node);
         const Call call = p_.table_call(node);
-        const std::string base = base_name(p_, node);
+        const std::string base = table_base(p_, node);
         std::vector<std::string> names;
         for (std::size_t k = 0; k < call.arguments; ++k) names.push_back(fmt::format("x{}", k + 1));
         for (std::size_t k = 0; call.is_held && k < call.arguments; ++k)
@@ -283,7 +264,7 @@ private:
                                 : fmt::format("{} * ({} * k1 + k2)", count * count, table.axes()[1].at.size() - 1);
         text += is_javascript() ? fmt::format("    const c = {}_c, cell = {};\n", base, cell)
                                 : fmt::format("    const double* const c = {}_c + {};\n", base, cell);
-        return text + "    return " + real(value(table, call)) + ";\n" + end;
+        return text + "    return " + real(table_value(table, call, words())) + ";\n" + end;
     }
 
     /// Of several systems side by side one after the other.
@@ -325,13 +306,37 @@ private:
 
 }  // namespace
 
+std::string table_value(const TabulatedFunction& table, const Call& call, const TableWords& words) {
+    std::string text = polynomial(table, call.orders, words);
+    if (table.outside() != TabulatedFunction::Outside::line) return text;
+    const auto goes_on = [&](std::size_t k) {
+        return k < call.arguments && call.orders[k] == 0 && table.axes()[k].period == 0;
+    };
+    auto orders = call.orders;
+    for (std::size_t k = 0; k < 2; ++k)
+        if (goes_on(k)) {
+            orders = call.orders;
+            ++orders[k];
+            text += fmt::format(" + (x{0} - y{0}) * ({1})", k + 1, polynomial(table, orders, words));
+        }
+    if (goes_on(0) && goes_on(1))
+        text += fmt::format(" + (x1 - y1) * (x2 - y2) * ({})", polynomial(table, {1, 1}, words));
+    return text;
+}
+
+std::string table_base(const Program& p, const Node& node) {
+    const std::size_t index = p.function_of(node);
+    return fmt::format("table{}_{}", index, ascii_identifier(p.functions.at(index)));
+}
+
 std::string table_functions(const Program& program, CodeLanguage language) {
+    if (dialect_of(language).is_shaped()) return chosen_tables(program, dialect_of(language));
     return TableText(program, language).functions();
 }
 
 std::string table_call(const Program& program, const Node& node) {
     const Call call = program.table_call(node);
-    std::string name = base_name(program, node);
+    std::string name = table_base(program, node);
     if (is_side(call)) return name + fmt::format("_side{}", call.orders[0] - TabulatedFunction::side_function);
     if (call.orders[0] + call.orders[1] > 0)
         name += call.arguments == 1 ? fmt::format("_{}", call.orders[0])

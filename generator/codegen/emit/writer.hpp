@@ -52,6 +52,8 @@ public:
 
     /// After `write`: the statement "to = value;" for a goal, where `to` is a place in `array`.
     CodeStatement assigned(const std::string& array, const std::string& to, int node);
+    /// After `write`: the text of a goal's value, with what it uses.
+    CodeStatement evaluated(int node);
     /// After `write`: an expression for a goal's value, and the leaves that were used.
     std::string value(int node) { return text(node, additive); }
     const NodeMap<int>& uses() const { return uses_; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/expression.hpp"
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/table_text.hpp"
@@ -23,7 +24,11 @@ CodeStatement Writer::finished(std::vector<std::string> names, std::string text)
 CodeStatement Writer::assigned(const std::string& array, const std::string& to, int node) {
     const std::string value = text(node, additive);
     reading_.insert(array);
-    return finished({}, fmt::format("{} = {};", to, value));
+    return finished({}, dialect_of(language_).assigned(to, value));
+}
+
+CodeStatement Writer::evaluated(int node) {
+    return finished({}, text(node, additive));
 }
 
 CodeStatement Writer::statement(int id) {
@@ -49,7 +54,7 @@ CodeStatement Writer::statement(int id) {
 }
 
 std::string Writer::declared(const std::string& name, const std::string& value) const {
-    return fmt::format("const {}{} = {};", language_ == CodeLanguage::javascript ? "" : "Real ", name, value);
+    return dialect_of(language_).declared(name, value);
 }
 
 std::string Writer::text(int id, int precedence) {
@@ -66,7 +71,7 @@ std::string Writer::text(int id, int precedence) {
     } else if (node.op == Op::number) {
         result = number_text(node.number, language_);
     } else if (node.op == Op::pi) {
-        result = language_ == CodeLanguage::javascript ? "PI" : "Real(3.14159265358979323846264338327950288L)";
+        result = dialect_of(language_).pi;
     } else if (node.op == Op::sum) {
         own = node.is_scaled() && !cln::minusp(node.coefficients[0]) ? multiplicative : additive;
         result = sum_text(id, false);
@@ -84,7 +89,7 @@ std::string Writer::text(int id, int precedence) {
         result += ")";
     } else {
         ++operations_;
-        result = fmt::format("{}({}", name_of(node.op), text(node.args[0], additive));
+        result = dialect_of(language_).call(node.op, text(node.args[0], additive));
         for (std::size_t k = 1; k < node.args.size(); ++k) result += ", " + text(node.args[k], additive);
         result += ")";
     }

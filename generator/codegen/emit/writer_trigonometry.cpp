@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "codegen/emit/dialect.hpp"
 #include "codegen/emit/writer.hpp"
 #include "program/processor.hpp"
 
@@ -97,13 +98,19 @@ CodeStatement Writer::trigonometric_statement(int id) {
     if (sine >= 0) named_[sine] = names_.fresh("sin_" + base);
     if (cosine >= 0) named_[cosine] = names_.fresh("cos_" + base);
     ++operations_;
+    const Dialect& dialect = dialect_of(language_);
+    const auto function = [&](Op op) { return dialect.call(op, of) + ")"; };
+    if (sine >= 0 && cosine >= 0 && dialect.is_shaped())
+        return finished({named_[sine], named_[cosine]}, declared(named_[sine], function(Op::sin)) + "\n" +
+                                                            declared(named_[cosine], function(Op::cos)));
     if (sine >= 0 && cosine >= 0 && language_ != CodeLanguage::cpp)
         return finished({named_[sine], named_[cosine]},
-                        declared(named_[sine], fmt::format("sin({}), {} = cos({})", of, named_[cosine], of)));
+                        declared(named_[sine], fmt::format("{}, {} = {}", function(Op::sin), named_[cosine],
+                                                           function(Op::cos))));
     if (sine >= 0 && cosine >= 0)
         return finished({named_[sine], named_[cosine]},
                         fmt::format("const auto [{}, {}] = sincos({});", named_[sine], named_[cosine], of));
-    return finished({named_[id]}, declared(named_[id], fmt::format("{}({})", name_of(node.op), of)));
+    return finished({named_[id]}, declared(named_[id], function(node.op)));
 }
 
 /// Removes from the lists the angles that are sums or differences of two others, if those others fit in one group.
