@@ -38,7 +38,7 @@ class _Likely(TypedDict):
     term: str
 
 class _Assumption(TypedDict):
-    kind: Literal["side", "branch", "parameter", "pose", "closed", "stated"]
+    kind: Literal["side", "branch", "parameter", "pose", "closed", "small", "stated"]
     text: str
 
 class _Branch(TypedDict):
@@ -169,6 +169,7 @@ class _EquilibriumAlways(TypedDict):
     isolated: bool
     stable: Literal["yes", "no", "undecided"]
     because: str
+    assumed: list[_Assumed]
     eigenvalues: list[tuple[float, float]]
 
 class _Family(TypedDict):

@@ -211,7 +211,8 @@ class Examined:
     def _holds_on_sheet(self, claim, where):
         """Where conditions on positions say so, which the start fulfils."""
         try:
-            conditions = [self.scene.named(c) for c in self._conditions(where)]
+            own = [self.scene.named(w) for w in claim.where]
+            conditions = [c for c in (self.scene.named(c) for c in self._conditions(where)) if c not in own]
             if any(d for c in conditions for _, d in used(c)):
                 return False
             start = self.truth.start
@@ -272,8 +273,10 @@ class Examined:
             left, right = read_equation(text, self._named_or_constant(claim))
         except NotRead:
             return
-        truth = self.truth.judge(claim.like(left, right))
-        if truth.kind == FAILS and not self._sheeted(claim.like(left, right)):
+        repaired = claim.like(left, right)
+        truth = self.truth.judge(repaired)
+        where = row.get("where") or []  # what was assumed is told, and the start fulfils it
+        if truth.kind == FAILS and not self._sheeted(repaired) and not (where and self._holds_on_sheet(repaired, where)):
             self._found(REPAIR, claim, f"repaired as {text}, which fails" + self._at(truth, claim))
 
     def _sheeted(self, claim):

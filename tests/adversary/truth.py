@@ -19,6 +19,7 @@ from trees import (
     derivative,
     name,
     over,
+    parts,
     rate,
     replaced,
     sides,
@@ -481,12 +482,17 @@ def has_nothing_of(scene, claim):
     conditions = [scene.named(w) for w in claim.where]
     allowed = Compiled(conditions) if conditions else None
     names = set().union(used(left), used(right), *(used(c) for c in conditions))
+    sizes = {abs(float(n.args[0])) for side in (left, right) for n in parts(side) if n.op == "num"}
+    numbers = sorted({0.0, *sizes, *(-size for size in sizes)})
     rng = numpy.random.default_rng(5)
     seen = 0
     for _ in range(400):  # arguments of asin and acos are rarely drawn
         if seen == 40:
             break
-        state = {key: mpf(float(drawn(rng, 1)[0])) for key in sorted(names)}
+        if rng.random() < 0.5:
+            state = {key: mpf(float(drawn(rng, 1)[0])) for key in sorted(names)}
+        else:  # beside a number of the claim: asin(x - 20) has few arguments
+            state = {key: mpf(float(rng.choice(numbers) + rng.uniform(-1, 1))) for key in sorted(names)}
         try:
             if allowed and any(value <= 0 for value in allowed.mp(state)):
                 continue

@@ -262,16 +262,13 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
         for (std::size_t i = 0; i < after.q.size(); ++i)
             size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
         PassedZero one{.is_zero = std::abs(value) <= 16 * epsilon * size, .slope = a[slopes_[k]], .size = size};
-        // Nothing has struck it, and it comes back before its value is more than rounding.
-        const bool touches =
-            slope * one.slope > 0 && slope * bend < 0 && slope * slope <= 2 * std::abs(bend) * rounding;
         if (has_jumped) {  // the value itself decides
-        } else if (!touches && std::abs(slope) > tolerance::jump * std::abs(one.slope)) {
+        } else if (std::abs(slope) > tolerance::jump * std::abs(one.slope)) {
             one.side = slope > 0 ? 1 : -1;
             one.hold = rounding / std::abs(slope);
             if (slope * bend < 0)
                 one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
-        } else if (touches || std::abs(bend) > tolerance::jump * size_of_terms(program_, bends_[k], b)) {
+        } else if (std::abs(bend) > tolerance::jump * size_of_terms(program_, bends_[k], b)) {
             one.side = bend > 0 ? 1 : -1;
             one.hold = std::sqrt(2 * rounding / std::abs(bend));
         } else {

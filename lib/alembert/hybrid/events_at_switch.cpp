@@ -41,19 +41,24 @@ std::vector<LastZero> jumps(const FilippovSystem& system, const EventsAtSwitch& 
     return result;
 }
 
-std::vector<LastZero> touches(const EventsAtSwitch& before, const EventsAtSwitch& after) {
+std::vector<LastZero> zeros_here(const EventsAtSwitch& before, const EventsAtSwitch& after) {
     constexpr double same_instant = 1e-13, above_noise = 1e-2;
     const double uncertain = same_instant * std::max(1.0, std::abs(after.t));
     std::vector<LastZero> result;
     for (std::size_t k = 0; k < after.now.size(); ++k) {
-        const double coming = before.earlier[k], going = after.later[k],
+        const double coming = before.earlier[k], going = after.later[k], now = after.now[k],
                      beside = std::min(std::abs(coming), std::abs(going)), slope = beside / after.short_time;
-        const int direction = coming > 0 ? -1 : 1, wanted = after.list[k].direction;
-        if (coming * going > 0 && std::abs(after.now[k]) <= std::min(uncertain * slope, above_noise * beside))
-            result.push_back({.event = static_cast<int>(k),
-                              .direction = direction,
-                              .counts = wanted == 0 || wanted == direction,
-                              .touches = true});
+        LastZero zero{.event = static_cast<int>(k), .direction = coming > 0 ? -1 : 1};
+        const int wanted = after.list[k].direction;
+        if (coming == 0 && before.now[k] == 0) {  // it leaves its zero, which it has reached before
+            result.push_back(zero);
+            continue;
+        }
+        if (!(std::abs(now) <= std::min(uncertain * slope, above_noise * beside))) continue;
+        zero.touches = coming * going > 0;
+        if (!zero.touches && now * coming > 0) continue;  // the next piece sees that it passes
+        zero.counts = wanted == 0 || wanted == zero.direction;
+        result.push_back(zero);
     }
     return result;
 }

@@ -6,10 +6,11 @@
 ///     const EventsAtSwitch before(place);           // with the sides that end
 ///     const EventsAtSwitch after(next_place);       // with those that follow
 ///     jumps(system, before, after)                  // forces that jump past zero, or to it
-///     touches(before, after)                        // values that come to zero and go back from there
+///     zeros_here(before, after)                     // values that touch zero, pass it or leave it here
 ///
 /// The motion bends there, and so may an event: a saw tooth comes to zero at its tips and goes back. The search
 /// within a step (ode/event_watch.hpp) sees only one half of that, and rounding may keep the tip away from zero.
+/// It may also leave the end of one piece before a zero and the start of the next one behind it.
 
 #include <vector>
 
@@ -40,7 +41,8 @@ public:
 /// Those of the direction that counts, among the events that look at forces.
 std::vector<LastZero> jumps(const FilippovSystem& system, const EventsAtSwitch& before,
                             const EventsAtSwitch& after);
-/// All of them; a touch from below is one in the direction in which the value grows.
-std::vector<LastZero> touches(const EventsAtSwitch& before, const EventsAtSwitch& after);
+/// A touch from below is one in the direction in which the value grows. What leaves a zero at which it has stayed
+/// does not count.
+std::vector<LastZero> zeros_here(const EventsAtSwitch& before, const EventsAtSwitch& after);
 
 }  // namespace alembert

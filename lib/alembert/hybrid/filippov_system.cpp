@@ -216,8 +216,13 @@ private:
             if (std::none_of(hit.passed.begin(), hit.passed.end(),
                              [&](const LastZero& z) { return z.event == zero.event; }))
                 record(zero);
-        for (const LastZero& zero : touched_ = touches(before, after)) {
-            for (LastZero& known : result_.last_zeros) known.touches = known.touches || known.event == zero.event;
+        for (LastZero& known : result_.last_zeros) {
+            const auto k = static_cast<std::size_t>(known.event);
+            if (before.earlier[k] * after.later[k] < 0) known.width = 0;  // a touch on one side only
+        }
+        for (const LastZero& zero : at_zero_ = zeros_here(before, after)) {
+            for (LastZero& known : result_.last_zeros)
+                known.touches = known.touches || (zero.touches && known.event == zero.event);
             if (zero.counts && !has_just_happened(zero.event)) record(zero);
         }
         return result_.ending == Ending::stopped_by_event;
@@ -267,13 +272,12 @@ private:
         return rhs;
     }
 
-    /// Whether an event has its zero where the piece begins, and not only soon after. One that touches zero there
-    /// may be beyond it by rounding, and comes back.
+    /// Whether an event is at a zero where the piece begins that has been told, if it counts.
     bool is_at_its_zero(int event) const {
-        return has_just_happened(event) ||
-               std::any_of(touched_.begin(), touched_.end(), [&](const LastZero& z) { return z.event == event; });
+        return std::any_of(at_zero_.begin(), at_zero_.end(), [&](const LastZero& z) { return z.event == event; });
     }
 
+    /// Whether an event has its zero where the piece begins, and not only soon after.
     bool has_just_happened(int event) const {
         constexpr double same_instant = 1e-12;
         return std::any_of(result_.events.rbegin(), result_.events.rend(), [&](const EventRecord& one) {
@@ -285,7 +289,8 @@ private:
     Events with_watches(const std::vector<ModeGuard>& watched) const {
         std::vector<Event> list = events_.list;
         for (std::size_t k = 0; k < list.size() && !result_.times.empty(); ++k)
-            list[k].at_once = list[k].at_once || !is_at_its_zero(static_cast<int>(k));
+            list[k].at_once = !is_at_its_zero(static_cast<int>(k)) &&
+                              (list[k].at_once || !has_just_happened(static_cast<int>(k)));
         for (const ModeGuard& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
         auto sides = std::make_shared<SlidingField>(system_, sides_, dimension());
@@ -558,7 +563,7 @@ private:
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL,
            since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before
-    std::vector<LastZero> touched_;   ///< where the piece begins
+    std::vector<LastZero> at_zero_;   ///< where the piece begins
     Trajectory result_;
 };
 

@@ -127,7 +127,8 @@ EventWatch::Turn EventWatch::turns_between(const StepView& step, int index, std:
     const double share =
         (b - a + fall * width) / ((fall + rise) * width);  // of the width, where the tangents meet
     const double meet = a - fall * std::clamp(share, 0.0, 1.0) * width;
-    if (!(meet <= 0) && !(meet <= band(step, index))) return {};
+    constexpr double next_to_zero = 1e-6;
+    if (!(meet <= 0) && !(meet < next_to_zero * std::max(a, b) && meet <= band(step, index))) return {};
     return lowest(step, index, {theta_[left], g_[left], theta_[left + 1], g_[left + 1]},
                   theta_[left] + std::clamp(share, 0.1, 0.9) * width);
 }
@@ -141,13 +142,12 @@ bool EventWatch::is_near_kink(const StepView& step) const {
 /// enough, and come back?
 EventWatch::Turn EventWatch::at_the_end(const StepView& step, int index, std::size_t from, std::size_t to) {
     const int side = side_of(g_[from]);
+    if (side == 0 || side_of(g_[to]) != side || side * g_[to] < side * g_[from]) return {};
     const double a = theta_[from], b = theta_[to], outside = 2 * a - b;
     double slope = slope_five_[from];
     if (is_near_kink(step) && outside >= 0 && outside <= 1)  // slopes are differences that may go beyond the kink
         slope = (g_[from] - value(step, index, outside)) / (a - outside);
-    if (side == 0 || side_of(g_[to]) != side || side * g_[from] + bend * side * slope * (b - a) >= 0 ||
-        side * g_[to] < side * g_[from])
-        return {};
+    if (side * g_[from] + bend * side * slope * (b - a) >= 0) return {};
     return lowest(step, index, from < to ? Bracket{a, g_[from], b, g_[to]} : Bracket{b, g_[to], a, g_[from]},
                   (a + b) / 2);
 }
@@ -177,13 +177,16 @@ EventWatch::Turn EventWatch::between(const StepView& step, int index, const doub
 EventWatch::Turn EventWatch::lowest(const StepView& step, int index, const Bracket& of, double middle) {
     auto [left, g_left, right, g_right] = of;
     constexpr double golden = 0.6180339887498949;
-    constexpr int enough = 4, most = 80;
+    constexpr int enough = 4, usual = 40, most = 80;
+    constexpr double next_to_zero = 1e-11;  // of the values beside: only what comes so near may touch zero
     const int side = side_of(g_right);
     g_left *= side, g_right *= side;
+    const double near = next_to_zero * std::max(g_left, g_right);
     double a = middle, g_a = side * value(step, index, a);
     for (int i = 0; i < most && g_a > 0; ++i) {
         const double fall = (g_left - g_a) / (a - left), rise = (g_right - g_a) / (right - a);
         if (i >= enough && g_a > fall * (right - a) && g_a > rise * (a - left)) break;
+        if (i >= usual && g_a > near) break;
         const double b = a - left > right - a ? a - (1 - golden) * (a - left) : a + (1 - golden) * (right - a);
         if (b == a || b == left || b == right) break;
         const double g_b = side * value(step, index, b);
@@ -195,7 +198,8 @@ EventWatch::Turn EventWatch::lowest(const StepView& step, int index, const Brack
     }
     constexpr double held = std::numeric_limits<double>::min();  // the value of what is held off zero
     if (g_a == held) return {};
-    if (g_a > band(step, index)) band_ = std::max(band_, noise(step, index, a, side * g_a));
+    if (std::abs(g_a) > band(step, index) && std::abs(g_a) <= near)
+        band_ = std::max(band_, noise(step, index, a, side * g_a));
     if (std::abs(g_a) <= band(step, index)) return touch(step, index, of, a);
     return g_a <= 0 ? Turn{a, side * g_a} : Turn();
 }
