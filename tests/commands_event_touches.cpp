@@ -170,4 +170,46 @@ tolerance = 1e-11
             0.5, 0.7, -1.5, 3) == 1);
 }
 
+TEST_CASE("touches: beside knots, levels and flat places ordinary zeros happen once") {
+    const auto times = [](const std::string& when, const std::string& more, double x, double rate,
+                          double duration) {
+        const auto run = simulated(temporary("once.toml", fmt::format(R"toml([coordinates]
+x = {{ initial = {}, rate = {} }}
+[states]
+n = {{}}
+[tables]
+c = {{ arguments = ["a"], interpolation = "cubic", outside = "line", points = [[-1, 1], [0, 1], [1, 0], [2, -1], [3, -0.5], [4, 1]] }}
+l = {{ arguments = ["a"], outside = "line", points = [[-1, 1.19], [0, 0.43], [0.74, 0], [1.493, -1.48], [2.413, -1.47]] }}
+p = {{ arguments = ["a"], interpolation = "pchip", outside = "line", points = [[-3, 1.79], [-1.99, 1.9], [-0.717, -1.8], [0.298, 0], [1.354, -1.36], [2.496, 0.9], [3.621, -0.97]] }}
+[energy]
+kinetic = "x'^2/2"
+[[event]]
+name = "zero"
+when = "{}"
+{}
+[simulation]
+duration = {}
+tolerance = 1e-10
+)toml",
+                                                                      x, rate, when, more, duration)),
+                                   {});
+        std::vector<double> result;
+        for (const auto& event : run["events"]) result.push_back(event["time"].get<double>());
+        return result;
+    };
+    const auto are = [](const std::vector<double>& found, const std::vector<double>& right) {
+        return std::equal(found.begin(), found.end(), right.begin(), right.end(),
+                          [](double a, double b) { return std::abs(a - b) < 1e-7; });
+    };
+    for (const char* const more : {"record = [\"t\"]", "set = { n = \"n + 1\" }"}) {
+        CAPTURE(more);
+        CHECK(are(times("c(t)", more, 0, 1, 1.9), {1}));
+        CHECK(are(times("l(t)", more, 0.05, 1, 1.393), {0.74}));
+        CHECK(are(times("(x-1)*abs(x-1)", more, 0.013, 1.22, 4), {0.987 / 1.22}));
+        CHECK(are(times("-p(t)*(2+cos(3*t))", more, 0, 1, 2.4), {0.298, 2.00296534556225}));
+        CHECK(are(times("max(0, x-1)", more, 3, -1, 4), {2}));
+        CHECK(are(times("max(0, x-1)", more, 0, 1, 4), {}));
+    }
+}
+
 }  // namespace commands_event_touches

@@ -268,6 +268,8 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
             one.hold = rounding / std::abs(slope);
             if (slope * bend < 0)
                 one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
+            else if (bend != 0)  // a touch, whose slope is rounding, rises by its bend
+                one.hold = std::min(one.hold, std::sqrt(2 * rounding / std::abs(bend)));
         } else if (std::abs(bend) > tolerance::jump * size_of_terms(program_, bends_[k], b)) {
             one.side = bend > 0 ? 1 : -1;
             one.hold = std::sqrt(2 * rounding / std::abs(bend));
