@@ -483,6 +483,7 @@ def has_nothing_of(scene, claim):
     allowed = Compiled(conditions) if conditions else None
     names = set().union(used(left), used(right), *(used(c) for c in conditions))
     sizes = {abs(float(n.args[0])) for side in (left, right) for n in parts(side) if n.op == "num"}
+    sizes |= {a / b for a in sizes for b in sizes if b}
     numbers = sorted({0.0, *sizes, *(-size for size in sizes)})
     rng = numpy.random.default_rng(5)
     seen = 0
