@@ -12,6 +12,7 @@
 #include "alembert/base/error.hpp"
 #include "alembert/native/process.hpp"
 #include "emitted.hpp"
+#include "named_spring.hpp"
 #include "program/interpret.hpp"
 #include "program/rounding.hpp"
 #include "scene/scene.hpp"
@@ -109,28 +110,6 @@ void compare(const test::Folder& folder, const Json& modules) {
         CHECK(std::system(("python3 -B " + script + ".py" + of).c_str()) == 0);
 }
 
-/// A pendulum on a spring whose four parameters and two coordinates have these names.
-std::string spring_scene(const std::vector<std::string>& names, const std::string& text) {
-    return fmt::format(R"toml(title = """{6}"""
-gravity = [0, "-{0}"]
-[parameters]
-"{0}" = {{ value = 9.81, unit = "m", about = """{6}""" }}
-"{1}" = 2.5
-"{2}" = 0.7
-"{3}" = 40
-[coordinates]
-"{4}" = {{ initial = 0.4, unit = "m", about = """{6}""" }}
-"{5}" = {{ initial = 0.1, rate = 0.3 }}
-[[particle]]
-name = "bob"
-mass = "{1}"
-position = ["({2} + {5})*sin({4})", "-({2} + {5})*cos({4})"]
-[forces]
-"{5}" = "-{3}*{5} - abs({5})*{1} + min({5}, {2}) + sqrt({3} + {5}^2) + 0.1*atan2({5}, {0}) + pi*sign({5})"
-)toml",
-                       names[0], names[1], names[2], names[3], names[4], names[5], text);
-}
-
 }  // namespace
 
 TEST_CASE("emit: modules of JavaScript compute what their programs compute, in a browser and in Node") {
@@ -163,7 +142,7 @@ TEST_CASE(
         for (const char* const text :
              {"m", "</script><!-- */ `${alert(1)}` //\u2028alert(2)", "\\u000aalert(3)//"}) {
             CAPTURE(text);
-            const Scene scene = parse_scene(spring_scene(names, text), "named.toml");
+            const Scene scene = parse_scene(test::spring_scene(names, text, false), "named.toml");
             modules.push_back(module_of(folder, scene, fmt::format("named{}", k++)));
         }
     for (const Json& other : modules) CHECK(other["calls"][0]["rhs"] == modules[0]["calls"][0]["rhs"]);

@@ -19,6 +19,7 @@
 #include "codegen/emit/solver_functions.hpp"
 #include "codegen/emit/vocabulary.hpp"
 #include "emitted.hpp"
+#include "named_spring.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
 #include "tools.hpp"
@@ -296,31 +297,6 @@ std::vector<double> agree(const std::string& scene, const EmissionOptions& optio
     return agree(read_scene(test::source_path(scene)), options);
 }
 
-/// A pendulum on a spring whose four parameters and two coordinates have these names, with all elementary
-/// functions.
-std::string spring_scene(const std::vector<std::string>& names, const std::string& text) {
-    return fmt::format(R"toml(title = """{6}"""
-gravity = [0, "-{0}"]
-[parameters]
-"{0}" = {{ value = 9.81, unit = "m", about = """{6}""" }}
-"{1}" = 2.5
-"{2}" = 0.7
-[inputs]
-"{3}" = {{ value = 40, given = "outside" }}
-[coordinates]
-"{4}" = {{ initial = 0.4, unit = "m", about = """{6}""" }}
-"{5}" = {{ initial = 0.1, rate = 0.3 }}
-[[particle]]
-name = "bob"
-mass = "{1}"
-position = ["({2} + {5})*sin({4})", "-({2} + {5})*cos({4})"]
-[forces]
-"{5}" = "-{3}*{5} - abs({5})*{1} + min({5}, {2}) - max({4}, {5}) + sqrt({3} + {5}^2) + 0.1*atan2({5}, {0}) + pi*sign({5})"
-"{4}" = "exp(-{4}) - log({0} + {4}) + tanh({5}) + sinh({5}/{0}) - cosh({4}/3) + tan({5}/4) + asin({5}/{1}) - acos({4}/{0}) + atan({4}) + ({0} + {5})^({2}/3) + sqrt({4} - 0.2)"
-)toml",
-                       names[0], names[1], names[2], names[3], names[4], names[5], text);
-}
-
 /// Functions by points of all kinds; states lie beyond their ends too, where e has no value.
 constexpr const char* tables = R"toml([coordinates]
 x = { initial = 0.1, rate = 0.2 }
@@ -382,8 +358,8 @@ TEST_CASE("emit: reserved words of each language as names, and texts that would 
     for (const std::vector<std::string>& six : names) {
         CAPTURE(six[0]);
         const bool is_first = expected.empty();
-        const Scene scene =
-            parse_scene(spring_scene(six, is_first ? "m" : text), is_first ? "named.toml" : six[0] + ".toml");
+        const Scene scene = parse_scene(test::spring_scene(six, is_first ? "m" : text, true),
+                                        is_first ? "named.toml" : six[0] + ".toml");
         expected = agree(scene, {}, 0, expected);
     }
 }

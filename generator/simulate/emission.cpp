@@ -14,6 +14,7 @@
 #include "codegen/emit/dialect.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/standalone.hpp"
+#include "codegen/emit/taken_file_names.hpp"
 #include "program/event_places.hpp"
 #include "program/known_knots.hpp"
 #include "program/lower/frame_functions.hpp"
@@ -166,17 +167,6 @@ std::string command_of(const Scene& scene, const EmissionOptions& options) {
     return command.text;
 }
 
-/// A scene's header would stand before these of the compiler, which its own files include or whose headers do,
-/// where its folder is given to the compiler.
-bool is_header_of_c(const std::string& name) {
-    static const std::set<std::string> headers{
-        "alloca",   "assert",  "complex",   "ctype",   "endian", "errno",  "features", "fenv",   "float",
-        "inttypes", "iso646",  "limits",    "locale",  "malloc", "math",   "memory",   "setjmp", "signal",
-        "stdalign", "stdarg",  "stdatomic", "stdbool", "stddef", "stdint", "stdio",    "stdlib", "stdnoreturn",
-        "string",   "strings", "tgmath",    "threads", "time",   "uchar",  "unistd",   "wchar",  "wctype"};
-    return headers.contains(name);
-}
-
 bool holds(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -306,8 +296,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     const std::vector<int> second =
         options.casadi && e.derivatives ? casadi_second_derivatives(program) : std::vector<int>();
     if (!options.name.empty()) program.name = options.name;
-    if (options.language == CodeLanguage::c && is_header_of_c(ascii_identifier(program.name)))
-        program.name += "_scene";
+    if (is_taken_file_name(ascii_identifier(program.name), options.language)) program.name += "_scene";
     if (options.standalone || options.casadi)  // these have parameters alone, and nobody gives inputs
         for (Quantity& p : program.parameters) p.from_outside = false;
     const int places = options.standalone ? add_event_places(e, program) : 0;

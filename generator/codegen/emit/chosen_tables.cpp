@@ -50,10 +50,6 @@ public:
     }
 
 private:
-    template <typename... Texts>
-    static std::string formed(std::string_view shape, const Texts&... texts) {
-        return fmt::format(fmt::runtime(shape), texts...);
-    }
     std::string real(double x) const { return dialect_.literal(shortest(x)); }
 
     std::string list(const std::string& name, const std::vector<double>& values) const {

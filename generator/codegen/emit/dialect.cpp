@@ -231,17 +231,15 @@ std::vector<Dialect> all_dialects() {
     std::vector<Dialect> all = {in_cpp(),   in_c(),      in_javascript(), in_python(),
                                 in_julia(), in_matlab(), in_rust(),       in_modelica()};
     for (Dialect& row : all) row.words = reserved_in(row.language);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k].language != static_cast<CodeLanguage>(k))
+            throw std::logic_error("rows of dialects are out of order");
     return all;
 }
 
 const std::vector<Dialect>& rows() {
     static const std::vector<Dialect> all = all_dialects();
     return all;
-}
-
-template <typename... Texts>
-std::string formed(std::string_view shape, const Texts&... texts) {
-    return fmt::format(fmt::runtime(shape), texts...);
 }
 
 }  // namespace

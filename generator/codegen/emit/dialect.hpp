@@ -11,6 +11,8 @@
 ///
 /// Expressions are the same in all of them but for numbers, names of functions and places in arrays.
 
+#include <fmt/format.h>
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +45,12 @@ struct DialectTables {
     std::string_view floor;
     std::string_view no_number;
 };
+
+/// A shape of this table with texts in its places.
+template <typename... Texts>
+std::string formed(std::string_view shape, const Texts&... texts) {
+    return fmt::format(fmt::runtime(shape), texts...);
+}
 
 struct Dialect {
     CodeLanguage language;

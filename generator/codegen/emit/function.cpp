@@ -234,6 +234,14 @@ std::vector<CodeStatement> with_early_results(const std::vector<Passage>& passag
     return list;
 }
 
+/// That of numbers which hold what follows from all that is given, duals too.
+std::string type_in_julia(const std::vector<FunctionArgument>& arguments) {
+    std::string types = "typeof(t)";
+    for (const FunctionArgument& a : arguments)
+        if (a.type == "const Real*") types += fmt::format(", eltype({})", a.name);
+    return fmt::format("promote_type({})", types);
+}
+
 std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vector<ArrayInput>& items,
                                        const std::vector<Passage>& passages, const EmitOptions& options) {
     const CodeLanguage language = options.language;
@@ -254,11 +262,12 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
     std::vector<EmittedFunction> result;
     const char* const room = language == CodeLanguage::javascript ? "const carried = new Float64Array({});"
                              : language == CodeLanguage::rust     ? "let mut carried = [R::of(0.0); {}];"
-                             : language == CodeLanguage::julia
-                                 ? "carried = zeros(promote_type(typeof(t), eltype(state), eltype(par)), {})"
-                                 : "Real carried[{}];";
+                             : language == CodeLanguage::julia    ? "carried = zeros({1}, {0})"
+                                                                  : "Real carried[{}];";
     const char* const call = language == CodeLanguage::julia ? "{}!({})" : "{}({});";
-    Passage calls{"Parts", {{.text = fmt::format(fmt::runtime(room), std::max(parts.carried, 1))}}};
+    Passage calls{
+        "Parts",
+        {{.text = fmt::format(fmt::runtime(room), std::max(parts.carried, 1), type_in_julia(task.arguments))}}};
     for (const FunctionPart& part : parts.list) {
         std::vector<ArrayInput> used;
         for (const ArrayInput& item : items)

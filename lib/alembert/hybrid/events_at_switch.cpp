@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/base/tolerances.hpp"
 #include "alembert/hybrid/sliding_field.hpp"
 #include "alembert/hybrid/zero_of_jump.hpp"
 
 namespace alembert {
 
 EventsAtSwitch::EventsAtSwitch(const Place& place) : t(place.t), list(place.events.list) {
-    constexpr double soon = 1e-9;  // of the duration: enough to tell a value from rounding, too short to bend
     if (list.empty()) return;
-    short_time = std::max(soon * place.duration, 64 * tolerance::epsilon * std::abs(t));
+    short_time = soon_after(t, place.duration);
     SlidingField field(place.system, place.sides, static_cast<int>(place.state.size()));
     field.evaluate(t, place.state.data());
     const std::vector<double> rate(field.rate().begin(), field.rate().end());
@@ -42,8 +40,8 @@ std::vector<LastZero> jumps(const FilippovSystem& system, const EventsAtSwitch& 
 }
 
 std::vector<LastZero> zeros_here(const EventsAtSwitch& before, const EventsAtSwitch& after) {
-    constexpr double same_instant = 1e-13, above_noise = 1e-2;
-    const double uncertain = same_instant * std::max(1.0, std::abs(after.t));
+    constexpr double above_noise = 1e-2;
+    const double uncertain = uncertain_time(after.t);
     std::vector<LastZero> result;
     for (std::size_t k = 0; k < after.now.size(); ++k) {
         const double coming = before.earlier[k], going = after.later[k], now = after.now[k],

@@ -218,7 +218,8 @@ private:
                 record(zero);
         for (LastZero& known : result_.last_zeros) {
             const auto k = static_cast<std::size_t>(known.event);
-            if (before.earlier[k] * after.later[k] < 0) known.width = 0;  // a touch on one side only
+            if (before.earlier[k] * after.later[k] < 0)
+                known.touches = false, known.width = 0;  // on one side only
         }
         for (const LastZero& zero : at_zero_ = zeros_here(before, after)) {
             for (LastZero& known : result_.last_zeros)

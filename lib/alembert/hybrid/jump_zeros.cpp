@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/base/tolerances.hpp"
 #include "alembert/hybrid/zero_of_jump.hpp"
 
 namespace alembert {
 
 namespace {
-
-constexpr double soon = 1e-9;  // of the duration: enough to tell a value from rounding, too short to bend
 
 std::vector<double> values(const ModeAt& here, double t) {
     std::vector<double> rate(here.state.size()), value(here.mode.events.list.size());
@@ -20,14 +17,9 @@ std::vector<double> values(const ModeAt& here, double t) {
     return value;
 }
 
-/// The time that counts as soon.
-double short_time(double t, double duration) {
-    return std::max(soon * duration, 64 * tolerance::epsilon * std::abs(t));
-}
-
 /// The values a short time later.
 std::vector<double> values_soon(const ModeAt& here, double t, double duration) {
-    const double h = short_time(t, duration);
+    const double h = soon_after(t, duration);
     std::vector<double> later = here.state, rate(here.state.size());
     here.mode.system.rhs(t, here.state.data(), rate.data());
     for (std::size_t i = 0; i < later.size(); ++i) later[i] += h * rate[i];
@@ -64,8 +56,7 @@ std::vector<LastZero> zeros_of_jump(const ImpulsiveEvents& kicks, const EventJum
 }
 
 std::vector<LastZero> zeros_at(const ModeAt& here, std::size_t events, double t, double duration) {
-    constexpr double same_instant = 1e-13;
-    const double h = short_time(t, duration);
+    const double h = soon_after(t, duration);
     std::vector<double> earlier = here.state, rate(here.state.size());
     here.mode.system.rhs(t, here.state.data(), rate.data());
     for (std::size_t i = 0; i < earlier.size(); ++i) earlier[i] -= h * rate[i];
@@ -74,9 +65,7 @@ std::vector<LastZero> zeros_at(const ModeAt& here, std::size_t events, double t,
     std::vector<LastZero> result;
     for (std::size_t k = 0; k < events; ++k) {
         const double slope = (then[k] - before[k]) / (2 * h);
-        if (!(before[k] * then[k] < 0) ||
-            !(std::abs(now[k]) <= same_instant * std::max(1.0, std::abs(t)) * std::abs(slope)))
-            continue;
+        if (!(before[k] * then[k] < 0) || !(std::abs(now[k]) <= uncertain_time(t) * std::abs(slope))) continue;
         const int side = slope > 0 ? 1 : -1, wanted = here.mode.events.list[k].direction;
         result.push_back(
             {.event = static_cast<int>(k), .direction = side, .counts = wanted == 0 || wanted == side});
@@ -85,7 +74,7 @@ std::vector<LastZero> zeros_at(const ModeAt& here, std::size_t events, double t,
 }
 
 PassedZero zero_along(const ModeAt& here, std::size_t event, double t, double duration) {
-    const double h = short_time(t, duration), value = values(here, t)[event],
+    const double h = soon_after(t, duration), value = values(here, t)[event],
                  then = values_soon(here, t, duration)[event], change = then - value;
     PassedZero result{.slope = change / h, .size = std::abs(change / h) * duration};
     if (std::abs(value) > 2 * std::abs(change)) return result;  // it has jumped

@@ -9,10 +9,17 @@
 #include <cmath>
 #include <optional>
 
+#include "alembert/base/tolerances.hpp"
 #include "alembert/ode/events.hpp"
 #include "alembert/ode/trajectory.hpp"
 
 namespace alembert {
+
+/// A time after t in which a value shows that it is more than rounding, and nothing bends.
+inline double soon_after(double t, double duration) {
+    constexpr double soon = 1e-9;  // of the duration
+    return std::max(soon * duration, 64 * tolerance::epsilon * std::abs(t));
+}
 
 struct ZeroOfJump {
     double rounding = 0;     ///< values up to this are zero, besides 1e-9 of the jump

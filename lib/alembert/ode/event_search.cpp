@@ -125,10 +125,10 @@ EventWatch::Turn EventWatch::turns_between(const StepView& step, int index, std:
     const double fall = -side * slope_five_[left], rise = side * slope_five_[left + 1];
     if (side == 0 || !(b > 0) || !(fall > 0) || !(rise > 0)) return {};
     const double share =
-        (b - a + fall * width) / ((fall + rise) * width);  // of the width, where the tangents meet
+        (a - b + rise * width) / ((fall + rise) * width);  // of the width, where the tangents meet
     const double meet = a - fall * std::clamp(share, 0.0, 1.0) * width;
-    constexpr double next_to_zero = 1e-6;
-    if (!(meet <= 0) && !(meet < next_to_zero * std::max(a, b) && meet <= band(step, index))) return {};
+    constexpr double may_be_zero = 1e-6;  // of the values beside: only then the band is worth an evaluation
+    if (!(meet <= 0) && !(meet < may_be_zero * std::max(a, b) && meet <= band(step, index))) return {};
     return lowest(step, index, {theta_[left], g_[left], theta_[left + 1], g_[left + 1]},
                   theta_[left] + std::clamp(share, 0.1, 0.9) * width);
 }
@@ -216,11 +216,11 @@ double EventWatch::noise(const StepView& step, int index, double theta, double h
 }
 
 /// The middle of the places around `at` at which g is zero to rounding. They are no new zero if they reach to an
-/// end of the bracket; at the end of the step the next one will not find them.
+/// end of the bracket; but at the end of the piece, where the next one will not find them.
 EventWatch::Turn EventWatch::touch(const StepView& step, int index, const Bracket& of, double at) {
     constexpr int halvings = 40;
     const double zero = band(step, index);
-    const bool reaches_end = of.right == 1 && std::abs(of.g_right) <= zero;
+    const bool reaches_end = of.right == theta_.back() && std::abs(of.g_right) <= zero;
     if (std::abs(of.g_left) <= zero || (std::abs(of.g_right) <= zero && !reaches_end)) return {};
     const auto end = [&](double outside) {
         double inside = at;
@@ -231,7 +231,7 @@ EventWatch::Turn EventWatch::touch(const StepView& step, int index, const Bracke
         return inside;
     };
     const double first = end(of.left);
-    if (reaches_end) return {.theta = 1, .value = 0, .width = 1 - first};
+    if (reaches_end) return {.theta = of.right, .value = 0, .width = of.right - first};
     const double last = end(of.right);
     return {.theta = (first + last) / 2, .value = 0, .width = (last - first) / 2};
 }

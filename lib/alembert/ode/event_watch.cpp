@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_looks = 8;   ///< the most repetitions of the search before an event that stops
 constexpr int most_depth = 20;  ///< of halvings of a step
-constexpr long most_evaluations = 20'000, for_each_zero = 100;     ///< of a step that is divided
+constexpr long most_evaluations = 20'000, for_each_zero = 400;     ///< of a step that is divided
 constexpr long most_patience = 2'000, least_patience = 16;         ///< of a step, for what bounds alone demand
 const FivePoints of_step({0, 0.23, 0.51, 0.77, 1});                ///< not equidistant: see five_points.hpp
 constexpr std::array<double, 4> parts = {0.47, 0.54, 0.52, 0.45};  ///< where the gaps of a piece are divided
@@ -113,14 +113,13 @@ bool EventWatch::look_again(const StepView& step, std::vector<Crossing>& found) 
 
 /// Zeros that rounding puts a little beyond the end of the run are at its end.
 void EventWatch::look_at_end(const StepView& step, std::vector<Crossing>& found) {
-    constexpr double same_instant = 1e-13;
-    const double later = ahead(step), uncertain = same_instant * std::max(1.0, std::abs(step.end));
+    const double later = ahead(step);
     for (std::size_t n = 0; n < ahead_.size(); ++n) ahead_[n] = step.end_state[n] + later * step.end_rate[n];
     events_(step.end + later, ahead_.data(), step.end_rate, out_.data());
     for (std::size_t k = 0; k < out_.size(); ++k) {
         const double here = samples_[1].value[k], slope = (out_[k] - here) / later;
         const int index = static_cast<int>(k);
-        if (here * slope < 0 && std::abs(here) <= uncertain * std::abs(slope) &&
+        if (here * slope < 0 && std::abs(here) <= uncertain_time(step.end) * std::abs(slope) &&
             std::none_of(found.begin(), found.end(), [&](const Crossing& c) {
                 return c.index == index && step.end - c.time <= simultaneous(step.start, step.end);
             }))

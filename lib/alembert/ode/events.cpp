@@ -21,6 +21,10 @@ double simultaneous(double start, double end) {
     return 1e-12 * std::max(std::abs(end), end - start);
 }
 
+double uncertain_time(double t) {
+    return 1e-13 * std::max(1.0, std::abs(t));  // some hundred rounding errors
+}
+
 Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop,
                    const std::vector<int>& direction) {
     const alembert_solver_table& table = module.table();

@@ -7,11 +7,11 @@
 ///                                        [](double, const double* y, const double*, double* g) { g[0] = y[0]; });
 ///     const Events from_scene = make_events(module, {}, {true, false});     // stop flags in the scene's order
 ///
-/// An event occurs where g changes its sign, other than through a pole, or becomes exactly zero. A zero at the
-/// very start (closer to it than 1e-12 of the step, or of the time) does not count. One at the very end of the run
-/// does, also where rounding leaves it a little beyond. event_watch.hpp says how the
-/// zeros within a step are found. Events of one step come in the order of time; simultaneous ones (to 1e-12) in
-/// the order of declaration. All events that are simultaneous with one that stops the run are reported.
+/// An event occurs where g changes its sign, other than through a pole, or comes to zero. A zero at the very start
+/// (closer to it than 1e-12 of the step, or of the time) does not count. One at the very end of the run does, also
+/// where rounding leaves it a little beyond. event_watch.hpp says how the zeros within a step are found. Events of
+/// one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. All events that
+/// are simultaneous with one that stops the run are reported.
 /// `direction` restricts the zeros to those where the value grows, or falls; a touch from below counts as growing.
 
 #include <concepts>
@@ -69,7 +69,7 @@ struct StepView {
     const double* start_state = nullptr;  ///< these two are known for a step of adaptive methods
     const double* start_rate = nullptr;
     std::function<void(double theta, double* state)> interpolate = {};
-    bool ends_run = false;
+    bool ends_run = false;  ///< whether no step follows
 };
 
 /// A zero of event `index`.
@@ -84,5 +84,7 @@ struct Crossing {
 
 /// In a step from `start` to `end`, events are simultaneous if their zeros are nearer to each other than this.
 double simultaneous(double start, double end);
+/// How far rounding may move the time of a zero that is at t.
+double uncertain_time(double t);
 
 }  // namespace alembert
