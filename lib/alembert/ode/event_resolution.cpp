@@ -185,7 +185,7 @@ bool EventWatch::is_flat(const StepView& step, const Piece& piece, int index) {
     }
     const Sample& middle = samples_[piece[2]];
     if (events_.bounds.has(index)) return largest <= zero_size(step, middle, index);
-    return turns > 0 && largest <= noise(step, index, middle.theta, middle.value[k]);
+    return turns > 1 && largest <= noise(step, index, middle.theta, middle.value[k]);
 }
 
 /// The most that rounding of the state and of each operation can make of an event at a sample.
